@@ -1,0 +1,2 @@
+//! The program `tetrascope`.
+fn main() {}

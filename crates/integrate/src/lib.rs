@@ -1,0 +1,1 @@
+//! Transfer functions and the integral of a ray through one cell.

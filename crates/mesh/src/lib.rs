@@ -1,0 +1,18 @@
+//! The mesh model: points, cells of any kind, and the tetrahedra they are cut into.
+//!
+//! A reader hands over a [`Dataset`]: points in world coordinates, cells of any kind, and named arrays.
+//! [`decompose`] cuts it into a [`TetMesh`] by a fixed rule and says what it left out. From there on only tetrahedra exist:
+//! [`FaceAdjacency`] joins them face to face (it knows no positions), [`check`] says what is wrong with them, and
+//! [`vertex_gradients`] is computed only when something asks for it.
+//!
+//! The crate knows no camera, no color and no file.
+
+mod dataset;
+mod frame;
+mod ids;
+mod tet_mesh;
+
+pub use dataset::{ArrayValues, CellKind, Cells, DataArray, Dataset, StructuredBlock, UnstructuredCells};
+pub use frame::Frame;
+pub use ids::{CellId, FaceId, VertexId};
+pub use tet_mesh::TetMesh;

@@ -1,0 +1,1 @@
+//! Projected Tetrahedra volume rendering, from mesh file to picture.

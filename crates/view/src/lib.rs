@@ -1,0 +1,13 @@
+//! Cameras, the rays of their pixels, and the picture that the pixels make.
+//!
+//! A [`Camera`] is what a scene says; a [`View`] is a camera that was checked and joined with a picture's size: an
+//! orthonormal basis and the map from pixels to rays. A [`Viewpoint`] is all that classification and visibility order
+//! need of it. A [`LinearImage`] is what every back end fills and every writer takes.
+//!
+//! The crate knows no mesh and no optics.
+
+mod camera;
+mod image;
+
+pub use camera::{Camera, Projection, Ray, View, ViewError, Viewpoint};
+pub use image::LinearImage;
