@@ -9,6 +9,7 @@
 
 mod error;
 mod read;
+mod vtk;
 
 pub use error::IoError;
 pub use read::{Loaded, MeshReader, Source};

@@ -1,0 +1,1 @@
+//! The readers of VTK files: legacy and XML unstructured grids.
