@@ -1,6 +1,94 @@
 //! Visibility orders: which tetrahedron is blended before which.
 //!
-//! Every method is a [`VisibilityOrder`]: it is given the mesh and where rays come from, and fills an [`Order`]: a
-//! permutation of the cells to be drawn, front to back, and a [`Guarantee`] that says how far it can be trusted.
+//! Every method is a [`VisibilityOrder`]: it is given the points and cells of a mesh, where rays come from, and which cells are
+//! to be drawn; it gives an [`Order`], a permutation of those cells from front to back, with a [`Guarantee`] that says
+//! how far it can be trusted. [`OrderMethod`] names the methods as a scene file does and makes them.
 //!
-//! The crate knows no color and no pixel.
+//! ```
+//! use glam::DVec3;
+//! use tetrascope_mesh::{CellId, VertexId};
+//! use tetrascope_order::{Cells, OrderMethod, VisibilityOrder};
+//! use tetrascope_view::Viewpoint;
+//!
+//! let points = [DVec3::ZERO, DVec3::X, DVec3::Y, DVec3::Z, DVec3::splat(1.0)];
+//! let tetrahedra = [[0, 1, 2, 3].map(VertexId), [1, 2, 3, 4].map(VertexId)];
+//! let cells = Cells { positions: &points, tetrahedra: &tetrahedra };
+//! let order = OrderMethod::Centroid.make().order(cells, Viewpoint::Eye(DVec3::splat(9.0)), &[CellId(0), CellId(1)]);
+//! assert_eq!(order.front_to_back, [CellId(1), CellId(0)]);
+//! ```
+//!
+//! Limits: the methods here ([`Unordered`], [`Bucket`], [`Centroid`]) sort by one point of a cell and may be wrong for neighbors of
+//! different shape; they say so in their guarantee. The crate knows no color and no pixel.
+
+mod bucket;
+mod centroid;
+mod method;
+mod radix;
+mod unordered;
+
+use glam::DVec3;
+use tetrascope_mesh::{CellId, TetMesh, VertexId};
+use tetrascope_view::Viewpoint;
+
+pub use bucket::Bucket;
+pub use centroid::Centroid;
+pub use method::{OrderMethod, UnknownOrder};
+pub use radix::{sort_by_key, sortable_bits};
+pub use unordered::Unordered;
+
+/// The geometry that an order looks at: points and the tetrahedra over them.
+#[derive(Clone, Copy, Debug)]
+pub struct Cells<'a> {
+    /// Points, in the same coordinates as the viewpoint; those that cells use are finite.
+    pub positions: &'a [DVec3],
+    /// Four points each.
+    pub tetrahedra: &'a [[VertexId; 4]],
+}
+
+impl<'a> From<&'a TetMesh> for Cells<'a> {
+    fn from(mesh: &'a TetMesh) -> Self {
+        Self { positions: mesh.positions(), tetrahedra: mesh.tetrahedra() }
+    }
+}
+
+impl Cells<'_> {
+    /// The mean of a cell's corners.
+    #[inline]
+    pub fn centroid(&self, cell: CellId) -> DVec3 {
+        let [a, b, c, d] = self.tetrahedra[cell.index()].map(|v| self.positions[v.index()]);
+        (a + b + c + d) * 0.25
+    }
+}
+
+/// A permutation of cells, and what it is worth.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Order {
+    /// The cells that were asked for, each once, the nearest first.
+    pub front_to_back: Vec<CellId>,
+    /// How far the permutation can be trusted.
+    pub guarantee: Guarantee,
+}
+
+/// How far an order can be trusted.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum Guarantee {
+    /// Nothing was sorted: right where the blending commutes, and only there.
+    Unsorted,
+    /// Cells are sorted by one number that approximates their depth: neighbors may come in the wrong order, and nothing says where.
+    Approximate,
+}
+
+/// A way to sort cells by visibility.
+///
+/// Shared between threads; what a method learns of a mesh once it keeps to itself.
+pub trait VisibilityOrder: Send + Sync {
+    /// The `drawn` cells from front to back, seen from `viewpoint`.
+    ///
+    /// Deterministic: the same arguments give the same permutation, whatever the number of threads. Cells that the method
+    /// cannot tell apart keep the order of `drawn`.
+    fn order(&self, cells: Cells<'_>, viewpoint: Viewpoint, drawn: &[CellId]) -> Order;
+}
+
+#[cfg(test)]
+mod tests;
