@@ -1,1 +1,18 @@
 //! Transfer functions and the integral of a ray through one cell.
+//!
+//! Inside a tetrahedron the scalar is linear along a ray. A [`TransferFunction`] maps it to a color and an extinction,
+//! both piecewise linear, and an [`OpticalModel`] says what those do to light. A [`Segment`] is the ray's part inside
+//! the cell: the scalars at its two ends and its length.
+//!
+//! The crate knows no mesh and no pixel.
+
+mod error;
+mod model;
+mod range_max;
+mod segment;
+mod transfer;
+
+pub use error::{NameError, TransferFunctionError};
+pub use model::{Integration, OpticalModel};
+pub use segment::{RgbaAssoc, Segment};
+pub use transfer::{Piece, TransferFunction};

@@ -1,0 +1,79 @@
+//! What can be wrong with a transfer function or with the name of a method.
+
+use thiserror::Error;
+
+/// Why control points do not make a transfer function.
+#[derive(Clone, Debug, Error, PartialEq)]
+#[non_exhaustive]
+pub enum TransferFunctionError {
+    /// A list without a control point has no value anywhere.
+    #[error("the {list} list is empty; give at least one control point")]
+    Empty {
+        /// Which list: `"color"` or `"extinction"`.
+        list: &'static str,
+    },
+    /// A scalar lies below the one before it.
+    #[error(
+        "{list} entry {index}: scalar {scalar} lies below {previous} of the entry before; sort the entries by scalar"
+    )]
+    NotSorted {
+        /// Which list.
+        list: &'static str,
+        /// Index of the entry, from 0.
+        index: usize,
+        /// Its scalar.
+        scalar: f64,
+        /// The scalar before it.
+        previous: f64,
+    },
+    /// A scalar or a value is infinite or not a number.
+    #[error("{list} entry {index}: {component} is {value}; give a finite number")]
+    NotFinite {
+        /// Which list.
+        list: &'static str,
+        /// Index of the entry, from 0.
+        index: usize,
+        /// `"scalar"`, `"red"`, `"green"`, `"blue"` or `"extinction"`.
+        component: &'static str,
+        /// What was given.
+        value: f64,
+    },
+    /// Light and extinction are not negative.
+    #[error("{list} entry {index}: {component} is {value}; give zero or more")]
+    Negative {
+        /// Which list.
+        list: &'static str,
+        /// Index of the entry, from 0.
+        index: usize,
+        /// `"red"`, `"green"`, `"blue"` or `"extinction"`.
+        component: &'static str,
+        /// What was given.
+        value: f64,
+    },
+}
+
+/// Why a text names no optical model or no way to integrate.
+#[derive(Clone, Debug, Error, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum NameError {
+    /// No method goes by this name.
+    #[error("unknown {what} \"{name}\"; use one of {known}")]
+    Unknown {
+        /// What was looked for.
+        what: &'static str,
+        /// The name that was given.
+        name: String,
+        /// The names that are there.
+        known: String,
+    },
+    /// The scene file's contract has the name, this version has not the method.
+    #[error("{what} \"{name}\" is not there yet; use one of {known}")]
+    NotThereYet {
+        /// What was looked for.
+        what: &'static str,
+        /// The name that was given.
+        name: String,
+        /// The names that are there.
+        known: String,
+    },
+}
