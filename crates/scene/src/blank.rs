@@ -1,0 +1,92 @@
+//! Why a picture may show nothing.
+
+use glam::DVec3;
+use tetrascope_view::View;
+
+use crate::text::short;
+use crate::{MeshFacts, Plan};
+
+/// Reasons for which a plan gives a picture with nothing to see, each with a remedy; empty when none is known.
+///
+/// Looks at the box around the mesh, the field's range and the transfer function, not at the mesh.
+pub fn explain_blank(plan: &Plan, facts: &MeshFacts) -> Vec<String> {
+    let mut reasons = Vec::new();
+    if let Some(side) = side_out_of_view(&plan.view, facts) {
+        reasons.push(format!(
+            "the camera does not see the mesh, which is {side}: the mesh lies between ({}) and ({}); aim the camera at its \
+             middle ({}), or leave eye and target out",
+            place(facts.lowest),
+            place(facts.highest),
+            place(facts.center())
+        ));
+        return reasons;
+    }
+    if let Some(pixels) = size_in_pixels(&plan.view, facts)
+        && pixels < 2.0
+    {
+        reasons.push(format!("the mesh is {} pixels large: go nearer, or leave eye and target out", short(pixels)));
+    }
+    let (low, high) = facts.scalar_range;
+    let (first, last) = plan.transfer.domain();
+    let range = format!(
+        "the field goes from {} to {}, the transfer function's control points from {} to {}",
+        short(low),
+        short(high),
+        short(first),
+        short(last)
+    );
+    let extinction = plan.transfer.max_extinction(low, high);
+    let emission = plan.transfer.max_emission(low, high);
+    let adds_light = plan.model.color_is_per_length();
+    if adds_light && emission * facts.diagonal() < 1.0 / 255.0 && (extinction == 0.0 || !plan.model.needs_extinction())
+    {
+        reasons.push(format!(
+            "the color, which this optical model adds per length, is at most {} over the field's range: {range}",
+            short(emission)
+        ));
+    } else if !adds_light && extinction == 0.0 {
+        reasons.push(format!("the extinction is 0 over the field's whole range: {range}"));
+    } else if !adds_light && extinction * facts.diagonal() < 1.0 / 255.0 {
+        reasons.push(format!(
+            "the extinction, at most {} per unit of length, is too small for a mesh of diagonal {}: a visible one is about {}",
+            short(extinction),
+            short(facts.diagonal()),
+            short(crate::defaults::DIAGONAL_DEPTH / facts.diagonal())
+        ));
+    }
+    reasons
+}
+
+/// On which side of the view the whole box lies, if it does.
+fn side_out_of_view(view: &View, facts: &MeshFacts) -> Option<&'static str> {
+    let corners: Vec<DVec3> = (0..8)
+        .map(|i| {
+            let pick = |bit: usize, low, high| if i & bit == 0 { low } else { high };
+            let (l, h) = (facts.lowest, facts.highest);
+            let to_corner = DVec3::new(pick(1, l.x, h.x), pick(2, l.y, h.y), pick(4, l.z, h.z)) - view.eye;
+            DVec3::new(to_corner.dot(view.right), to_corner.dot(view.up), to_corner.dot(view.forward))
+        })
+        .collect();
+    // How far the picture's edge is at a corner's depth; behind the eye the sides cross, and only "behind" is asked.
+    let reach = |half: f64, depth: f64| if view.is_perspective { half * depth } else { half };
+    let sides: [(&str, &dyn Fn(&DVec3) -> bool); 5] = [
+        ("behind it", &|p| p.z <= 0.0),
+        ("to its right", &|p| p.x > reach(view.half_width, p.z)),
+        ("to its left", &|p| -p.x > reach(view.half_width, p.z)),
+        ("above it", &|p| p.y > reach(view.half_height, p.z)),
+        ("below it", &|p| -p.y > reach(view.half_height, p.z)),
+    ];
+    sides.into_iter().find(|(_, is_out)| corners.iter().all(is_out)).map(|(side, _)| side)
+}
+
+/// Diameter of the bounding sphere in pixels; `None` with the eye inside.
+fn size_in_pixels(view: &View, facts: &MeshFacts) -> Option<f64> {
+    let depth = (facts.center() - view.eye).dot(view.forward);
+    let half_height = if view.is_perspective { view.half_height * depth } else { view.half_height };
+    let inside = view.is_perspective && depth <= facts.diagonal() / 2.0;
+    (!inside).then(|| facts.diagonal() / 2.0 / half_height * f64::from(view.height))
+}
+
+fn place(p: DVec3) -> String {
+    format!("{}, {}, {}", short(p.x), short(p.y), short(p.z))
+}

@@ -1,0 +1,211 @@
+//! Fills what a scene file leaves open with numbers, and turns it into a [`Scene`].
+
+use glam::DVec3;
+use tetrascope_order::OrderMethod;
+use tetrascope_view::{Camera, Projection};
+
+use crate::file::{Choice, ProjectionName, SceneFile};
+use crate::text::short;
+use crate::{Decision, MeshFacts, Scene, SceneError, defaults};
+
+/// The largest error wanted in a channel when a scene does not say: one step of 8 bits.
+pub const MAX_ERROR: f64 = 0.00392;
+
+/// A scene file with nothing left open.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Completed {
+    /// The file with every default as a number and every `"auto"` as a name: drawn again it gives the same picture.
+    pub file: SceneFile,
+    /// The same, ready to be planned.
+    pub scene: Scene,
+    /// The defaults that were chosen, with their reasons.
+    pub decisions: Vec<Decision>,
+    /// What the user should know: keys without an effect, a constant field.
+    pub warnings: Vec<String>,
+}
+
+impl SceneFile {
+    /// Fills everything that the file leaves open from the mesh and its field.
+    ///
+    /// # Errors
+    /// [`SceneError`] for effects that are not there yet and for numbers out of range.
+    pub fn complete(&self, facts: &MeshFacts) -> Result<Completed, SceneError> {
+        self.refuse_what_is_not_there()?;
+        let mut file = self.clone();
+        let (mut decisions, mut warnings) = (Vec::new(), Vec::new());
+        let camera = fill_camera(&mut file, facts, &mut decisions, &mut warnings)?;
+        let (color, extinction) = fill_transfer(&mut file, facts, &mut decisions, &mut warnings);
+        let order = fill_order(&mut file, &mut warnings);
+        if self.light.is_some() {
+            warnings.push("[light] has no effect: there is no isosurface to be lit".to_owned());
+        }
+        let max_error = *file.quality.max_error.get_or_insert(MAX_ERROR);
+        if !(0.0..=1.0).contains(&max_error) {
+            return Err(value("quality.max_error", max_error, "give a number from 0 to 1"));
+        }
+        let scene = Scene {
+            camera,
+            width: file.image.width,
+            height: file.image.height,
+            background: file.image.background,
+            model: file.optics.model,
+            color,
+            extinction,
+            integration: match file.quality.integration {
+                Choice::Auto => None,
+                Choice::Named(integration) => Some(integration),
+            },
+            order,
+            backend: file.quality.backend,
+            threads: None,
+        };
+        let plan = scene.plan()?;
+        decisions.extend(plan.decisions);
+        file.quality.integration = Choice::Named(plan.integration);
+        file.quality.order = Choice::Named(plan.order);
+        if let OrderMethod::Bucket { slabs } = plan.order {
+            file.quality.slabs = Some(slabs);
+        }
+        Ok(Completed { file, scene, decisions, warnings })
+    }
+
+    /// Keys that are part of the contract but whose effect is not built: better no picture than another one.
+    fn refuse_what_is_not_there(&self) -> Result<(), SceneError> {
+        let not_supported =
+            |key: &str, what, remedy| Err(SceneError::NotSupported { key: key.to_owned(), what, remedy });
+        if let Some(first) = self.isosurface.first() {
+            let key = format!("[[isosurface]] (value = {})", first.value);
+            return not_supported(&key, "surfaces of one value inside the volume", "remove the section");
+        }
+        if let Some(first) = self.surface.first() {
+            let key = format!("[[surface]] (path = \"{}\")", first.path.display());
+            return not_supported(&key, "opaque geometry inside the volume", "remove the section");
+        }
+        if self.transfer.preset.is_some() {
+            return not_supported(
+                "transfer.preset",
+                "color maps from files",
+                "give transfer.color and transfer.extinction",
+            );
+        }
+        Ok(())
+    }
+}
+
+fn fill_camera(
+    file: &mut SceneFile,
+    facts: &MeshFacts,
+    decisions: &mut Vec<Decision>,
+    warnings: &mut Vec<String>,
+) -> Result<Camera, SceneError> {
+    let (width, height) = (file.image.width, file.image.height);
+    let section = &mut file.camera;
+    let target = DVec3::from(*section.target.get_or_insert_with(|| facts.center().to_array()));
+    let (projection, distance) = match section.projection {
+        ProjectionName::Perspective => {
+            if section.height.take().is_some() {
+                warnings.push("camera.height has no effect: the projection is perspective".to_owned());
+            }
+            let fov_y = *section.fov_y.get_or_insert(defaults::FOV_Y_DEGREES);
+            if !(fov_y > 0.0 && fov_y < 180.0) {
+                return Err(value("camera.fov_y", fov_y, "give an angle in degrees, above 0 and below 180"));
+            }
+            let fit = defaults::fit_perspective(facts, fov_y, width, height);
+            (Projection::Perspective { fov_y: fov_y.to_radians() }, fit.distance)
+        }
+        ProjectionName::Orthographic => {
+            if section.fov_y.take().is_some() {
+                warnings.push("camera.fov_y has no effect: the projection is orthographic".to_owned());
+            }
+            let fitted = defaults::fit_orthographic(facts, width, height);
+            // Rays start at the plane through the eye, so it stands clear of the sphere whatever the target is.
+            let clear = facts.diagonal() + (target - facts.center()).length();
+            (Projection::Orthographic { height: *section.height.get_or_insert(fitted) }, clear)
+        }
+    };
+    let open_eye = section.eye.is_none();
+    let eye = DVec3::from(*section.eye.get_or_insert_with(|| {
+        let backwards = match section.up {
+            // Seen along z, an up of z would be a point: then from the front, as tools with z upwards have it.
+            Some([x, y, z]) if x.hypot(y) <= 1e-3 * z.abs() => DVec3::NEG_Y,
+            _ => DVec3::Z,
+        };
+        (target + backwards * distance).to_array()
+    }));
+    let up = DVec3::from(*section.up.get_or_insert_with(|| defaults::up_for(target - eye).to_array()));
+    if open_eye {
+        let along = if eye.y < target.y && eye.z == target.z { "+y" } else { "-z" };
+        decisions.push(Decision::new(
+            "camera",
+            format!("from ({}, {}, {})", short(eye.x), short(eye.y), short(eye.z)),
+            format!("looks along {along}, the mesh's bounding sphere fills the picture"),
+        ));
+    }
+    Ok(Camera { eye, target, up, projection })
+}
+
+type ControlPoints = (Vec<[f64; 4]>, Vec<[f64; 2]>);
+
+fn fill_transfer(
+    file: &mut SceneFile,
+    facts: &MeshFacts,
+    decisions: &mut Vec<Decision>,
+    warnings: &mut Vec<String>,
+) -> ControlPoints {
+    let (low, high) = facts.scalar_range;
+    let section = &mut file.transfer;
+    let constant = low >= high;
+    if section.color.is_none() {
+        let range = format!("viridis over {} to {}", short(low), short(high));
+        let (choice, reason) = if constant {
+            ("one color of viridis".to_owned(), "the field is constant")
+        } else {
+            (range, "the field's range")
+        };
+        decisions.push(Decision::new("color", choice, reason));
+    }
+    if section.extinction.is_none() {
+        let highest = defaults::extinction(facts).last().map_or(0.0, |point| point[1]);
+        let choice = if constant {
+            format!("{} everywhere", short(highest))
+        } else {
+            format!("0 at {} to {} at {}", short(low), short(highest), short(high))
+        };
+        let reason = if constant {
+            "4 over the mesh's diagonal; the field is constant"
+        } else {
+            "8 over the mesh's diagonal at the highest scalar"
+        };
+        decisions.push(Decision::new("extinction", choice, reason));
+        if constant {
+            warnings.push(format!(
+                "the field is {} everywhere: the picture shows the mesh's shape and nothing else",
+                short(low)
+            ));
+        }
+    }
+    let color = section.color.get_or_insert_with(|| defaults::color((low, high))).clone();
+    let extinction = section.extinction.get_or_insert_with(|| defaults::extinction(facts)).clone();
+    (color, extinction)
+}
+
+fn fill_order(file: &mut SceneFile, warnings: &mut Vec<String>) -> Option<OrderMethod> {
+    let section = &file.quality;
+    match (section.order, section.slabs) {
+        (Choice::Named(OrderMethod::Bucket { .. }), Some(slabs)) => Some(OrderMethod::Bucket { slabs }),
+        (order, slabs) => {
+            if slabs.is_some() {
+                warnings.push(format!("quality.slabs has no effect: the order is {order}, not bucket"));
+                file.quality.slabs = None;
+            }
+            match order {
+                Choice::Auto => None,
+                Choice::Named(order) => Some(order),
+            }
+        }
+    }
+}
+
+fn value(key: &'static str, value: f64, expected: &'static str) -> SceneError {
+    SceneError::Value { key, value: value.to_string(), expected }
+}

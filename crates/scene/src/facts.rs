@@ -1,0 +1,43 @@
+//! What a scene's defaults are made from.
+
+use glam::DVec3;
+use tetrascope_mesh::TetMesh;
+
+/// The numbers of mesh and field that defaults depend on.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct MeshFacts {
+    /// The lowest corner of the box around all tetrahedra; world coordinates, finite.
+    pub lowest: DVec3,
+    /// The highest corner; in no component below the lowest.
+    pub highest: DVec3,
+    /// The lowest and the highest finite value of the field on the tetrahedra that are drawn.
+    pub scalar_range: (f64, f64),
+}
+
+impl MeshFacts {
+    /// Facts of a mesh whose field has this range; `None` for a mesh with no tetrahedron.
+    ///
+    /// The box holds every tetrahedron of `mesh`. Give the whole mesh, not only the part where a field is finite, so that
+    /// the camera stays where it is when another field is shown.
+    pub fn new(mesh: &TetMesh, scalar_range: (f64, f64)) -> Option<Self> {
+        let positions = mesh.positions();
+        let mut corners = mesh.tetrahedra().iter().flatten().map(|v| positions[v.index()]);
+        let first = corners.next()?;
+        let (lowest, highest) = corners.fold((first, first), |(low, high), p| (low.min(p), high.max(p)));
+        let frame = mesh.frame();
+        Some(Self { lowest: frame.to_world(lowest), highest: frame.to_world(highest), scalar_range })
+    }
+
+    /// The middle of the box.
+    pub fn center(&self) -> DVec3 {
+        self.lowest * 0.5 + self.highest * 0.5
+    }
+
+    /// The diagonal of the box, world length.
+    pub fn diagonal(&self) -> f64 {
+        let sides = self.highest - self.lowest;
+        // Scaled, so that the squares of sides of 1e-200 or 1e200 stay numbers.
+        let longest = sides.max_element();
+        if longest > 0.0 { (sides / longest).length() * longest } else { 0.0 }
+    }
+}
