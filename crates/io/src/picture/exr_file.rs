@@ -1,0 +1,102 @@
+//! OpenEXR pictures: 32-bit linear, premultiplied.
+
+use std::{io, path::Path};
+
+use exr::prelude::{
+    Compression, Encoding, Image, Layer, LayerAttributes, MetaData, ReadChannels, ReadLayers, RgbaChannels,
+    SpecificChannels, Vec2, WritableImage, read,
+};
+use tetrascope_view::LinearImage;
+
+use super::{refuse_empty, whole_file::write_whole};
+use crate::{IoError, open::read_whole};
+
+/// How many pixels a byte of a compressed file may stand for. Deflate reaches 1032 bytes a byte, which is 258 pixels of
+/// one 32-bit channel; four times that leaves room for the other methods on constant pictures.
+const PIXELS_PER_BYTE: u64 = 1024;
+
+/// Pictures up to this size are read whatever the file's length is: 4 megapixels are 64 MiB.
+const PIXELS_ALWAYS_READ: u64 = 1 << 22;
+
+/// Writes a picture as OpenEXR: channels R, G, B, A, 32-bit float, linear, premultiplied, with no background; ZIP
+/// compression, which loses nothing. NaN and infinities are written as they are.
+///
+/// The file appears whole or not at all.
+///
+/// # Errors
+/// [`IoError::Write`] when the picture has no pixels or the file cannot be written; nothing is left of it then.
+pub fn write_exr(path: &Path, image: &LinearImage) -> Result<(), IoError> {
+    refuse_empty(path, image)?;
+    let bytes =
+        encode(image).map_err(|error| IoError::Write { path: path.to_owned(), problem: error.to_string() })?;
+    write_whole(path, &bytes)
+}
+
+fn encode(image: &LinearImage) -> exr::error::Result<Vec<u8>> {
+    let pixel = |at: Vec2<usize>| {
+        let [r, g, b, a] = image.pixels()[at.y() * image.width() as usize + at.x()];
+        (r, g, b, a)
+    };
+    let encoding = Encoding { compression: Compression::ZIP16, ..Encoding::FAST_LOSSLESS };
+    let size = (image.width() as usize, image.height() as usize);
+    // A layer without a name: its channels are then called R, G, B, A, which all programs look for.
+    let layer = Layer::new(size, LayerAttributes::default(), encoding, SpecificChannels::rgba(pixel));
+    let mut bytes = io::Cursor::new(Vec::new());
+    Image::from_layer(layer).write().to_buffered(&mut bytes)?;
+    Ok(bytes.into_inner())
+}
+
+/// Reads an OpenEXR picture: the first layer that has R, G and B, of any of the format's number types.
+///
+/// A missing A is 1. The picture is the data window; pixels are taken as they are (premultiplied by the format's rule).
+///
+/// # Errors
+/// [`IoError::Read`] when the system does not give the file, [`IoError::Invalid`] when it is no such picture, is broken,
+/// or declares more pixels than a file of its length can hold.
+pub fn read_exr(path: &Path) -> Result<LinearImage, IoError> {
+    let bytes = read_whole(path)?;
+    let invalid = |problem: String| IoError::Invalid {
+        path: path.to_owned(),
+        place: "OpenEXR picture".to_owned(),
+        problem,
+        remedy: "write it again as flat RGB or RGBA OpenEXR".to_owned(),
+    };
+    refuse_oversized(&bytes).map_err(invalid)?;
+
+    let read = read()
+        .no_deep_data()
+        .largest_resolution_level()
+        .rgba_channels(
+            |size: Vec2<usize>, _: &RgbaChannels| (size.width(), vec![[0.0_f32; 4]; size.area()]),
+            |(width, pixels), at, (r, g, b, a): (f32, f32, f32, f32)| {
+                if let Some(pixel) = pixels.get_mut(at.y() * *width + at.x()) {
+                    *pixel = [r, g, b, a];
+                }
+            },
+        )
+        .first_valid_layer()
+        .all_attributes()
+        .from_buffered(io::Cursor::new(&bytes))
+        .map_err(|error| invalid(error.to_string()))?;
+
+    let size = read.layer_data.size;
+    let (_, pixels) = read.layer_data.channel_data.pixels;
+    u32::try_from(size.width())
+        .ok()
+        .zip(u32::try_from(size.height()).ok())
+        .and_then(|(width, height)| LinearImage::from_pixels(width, height, pixels))
+        .ok_or_else(|| invalid(format!("its size of {} x {} does not fit", size.width(), size.height())))
+}
+
+/// Refuses sizes that the file cannot hold, before anything is reserved for them.
+fn refuse_oversized(bytes: &[u8]) -> Result<(), String> {
+    let meta = MetaData::read_from_buffered(io::Cursor::new(bytes), false).map_err(|error| error.to_string())?;
+    let limit = (bytes.len() as u64).saturating_mul(PIXELS_PER_BYTE).max(PIXELS_ALWAYS_READ);
+    for header in &meta.headers {
+        let (width, height) = (header.layer_size.width() as u64, header.layer_size.height() as u64);
+        if width.checked_mul(height).is_none_or(|pixels| pixels > limit) {
+            return Err(format!("{width} x {height} pixels are declared, a file of this length holds {limit} at most"));
+        }
+    }
+    Ok(())
+}

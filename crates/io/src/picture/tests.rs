@@ -1,0 +1,161 @@
+//! Pictures go out and come back.
+
+use std::{fs, io, path::Path};
+
+use super::{whole_file::try_write, *};
+
+fn gradient(width: u32, height: u32) -> LinearImage {
+    let pixels = (0..width * height)
+        .map(|i| {
+            let (x, y) = ((i % width) as f32 / width as f32, (i / width) as f32 / height as f32);
+            [x, 2.5 * y, x * y, 0.25 + 0.5 * x]
+        })
+        .collect();
+    LinearImage::from_pixels(width, height, pixels).unwrap()
+}
+
+fn names_in(folder: &Path) -> Vec<String> {
+    let mut names: Vec<_> =
+        fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().file_name().into_string().unwrap()).collect();
+    names.sort();
+    names
+}
+
+#[test]
+fn exr_returns_every_bit() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("picture.exr");
+    // 37 rows are no multiple of the 16 rows of a ZIP block.
+    let mut image = gradient(61, 37);
+    image.pixels_mut()[3] = [f32::INFINITY, -0.0, 1e-40, f32::MAX];
+    write_image(&path, &image, [0.5; 3]).unwrap();
+    assert_eq!(read_exr(&path).unwrap(), image);
+    assert_eq!(names_in(folder.path()), ["picture.exr"]);
+
+    let meta = MetaDataOf::read(&path);
+    assert_eq!(meta, MetaDataOf { channels: "A F32, B F32, G F32, R F32".into(), compression: "ZIP16".into() });
+}
+
+#[derive(Debug, PartialEq)]
+struct MetaDataOf {
+    channels: String,
+    compression: String,
+}
+
+impl MetaDataOf {
+    fn read(path: &Path) -> Self {
+        let meta = exr::prelude::MetaData::read_from_file(path, true).unwrap();
+        let header = &meta.headers[0];
+        let channels = header.channels.list.iter().map(|c| format!("{} {:?}", c.name, c.sample_type));
+        Self {
+            channels: channels.collect::<Vec<_>>().join(", "),
+            compression: format!("{:?}", header.compression),
+        }
+    }
+}
+
+#[test]
+fn exr_of_half_floats_without_alpha() {
+    use exr::prelude::{WritableImage, f16};
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("half.exr");
+    let channels = exr::prelude::SpecificChannels::rgb(|at: exr::prelude::Vec2<usize>| {
+        (f16::from_f32(at.x() as f32), f16::from_f32(at.y() as f32), f16::from_f32(0.5))
+    });
+    exr::prelude::Image::from_channels((5, 3), channels).write().to_file(&path).unwrap();
+    let image = read_exr(&path).unwrap();
+    assert_eq!((image.width(), image.height()), (5, 3));
+    assert_eq!(image.pixel(4, 2), [4.0, 2.0, 0.5, 1.0]);
+}
+
+#[test]
+fn exr_broken_files_are_errors() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("picture.exr");
+    write_exr(&path, &gradient(32, 32)).unwrap();
+    let whole = fs::read(&path).unwrap();
+    for length in [1, 8, 100, 300, whole.len() - 50] {
+        fs::write(&path, &whole[..length.min(whole.len() - 1)]).unwrap();
+        let message = read_exr(&path).unwrap_err().to_string();
+        assert!(message.contains("picture.exr"), "{message}");
+    }
+
+    // The data window, and with it the size, is made 2^30 squared.
+    let name = b"dataWindow\0box2i\0";
+    let at = whole.windows(name.len()).position(|window| window == name).unwrap() + name.len() + 4;
+    let mut huge = whole;
+    huge[at + 8..at + 12].copy_from_slice(&(1_i32 << 30).to_le_bytes());
+    huge[at + 12..at + 16].copy_from_slice(&(1_i32 << 30).to_le_bytes());
+    fs::write(&path, &huge).unwrap();
+    assert!(read_exr(&path).is_err());
+}
+
+#[test]
+fn png_has_the_composited_bytes_and_says_srgb() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("picture.PNG");
+    let image = gradient(19, 7);
+    let background = [0.1, 0.2, 0.3];
+    write_image(&path, &image, background).unwrap();
+
+    let mut reader = png::Decoder::new(io::BufReader::new(fs::File::open(&path).unwrap())).read_info().unwrap();
+    let mut bytes = vec![0; reader.output_buffer_size().unwrap()];
+    let info = reader.next_frame(&mut bytes).unwrap();
+    assert_eq!((info.width, info.height, info.color_type), (19, 7, png::ColorType::Rgb));
+    assert_eq!(bytes, image.to_srgb8(background));
+    assert!(reader.info().srgb.is_some());
+    assert_eq!(names_in(folder.path()), ["picture.PNG"]);
+}
+
+#[test]
+fn other_extensions_and_empty_pictures_are_refused() {
+    let folder = tempfile::tempdir().unwrap();
+    for name in ["picture.jpg", "picture"] {
+        let error = write_image(&folder.path().join(name), &gradient(2, 2), [0.0; 3]).unwrap_err();
+        assert!(matches!(error, IoError::Unsupported { .. }), "{error}");
+    }
+    for name in ["picture.png", "picture.exr"] {
+        let error = write_image(&folder.path().join(name), &LinearImage::transparent(0, 4), [0.0; 3]).unwrap_err();
+        assert!(error.to_string().contains("0 x 4"), "{error}");
+    }
+    assert!(names_in(folder.path()).is_empty());
+}
+
+#[test]
+fn failure_leaves_what_was_there() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("picture.png");
+    fs::write(&path, "before").unwrap();
+    let error = try_write(&path, |file| {
+        io::Write::write_all(file, b"half a pict")?;
+        Err(io::Error::other("disk full"))
+    });
+    assert_eq!(error.unwrap_err().to_string(), "disk full");
+    assert_eq!(names_in(folder.path()), ["picture.png"]);
+    assert_eq!(fs::read(&path).unwrap(), b"before");
+
+    let missing = folder.path().join("missing/picture.png");
+    assert!(matches!(write_png(&missing, &gradient(2, 2), [0.0; 3]), Err(IoError::Write { .. })));
+    let directory = folder.path().join("folder.png");
+    fs::create_dir(&directory).unwrap();
+    assert!(matches!(write_png(&directory, &gradient(2, 2), [0.0; 3]), Err(IoError::Write { .. })));
+    assert_eq!(names_in(folder.path()), ["folder.png", "picture.png"]);
+}
+
+#[cfg(unix)]
+#[test]
+fn permissions_are_those_of_a_new_file_and_links_are_followed() {
+    use std::os::unix::fs::PermissionsExt;
+    let folder = tempfile::tempdir().unwrap();
+    let (plain, picture) = (folder.path().join("plain"), folder.path().join("picture.png"));
+    fs::File::create(&plain).unwrap();
+    write_png(&picture, &gradient(2, 2), [0.0; 3]).unwrap();
+    let mode = |path: &Path| fs::metadata(path).unwrap().permissions().mode();
+    assert_eq!(mode(&picture), mode(&plain));
+
+    let link = folder.path().join("link.png");
+    std::os::unix::fs::symlink("picture.png", &link).unwrap();
+    write_png(&link, &gradient(3, 3), [0.0; 3]).unwrap();
+    assert!(fs::symlink_metadata(&link).unwrap().is_symlink());
+    assert_eq!(fs::read(&link).unwrap(), fs::read(&picture).unwrap());
+}
