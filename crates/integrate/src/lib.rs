@@ -6,13 +6,27 @@
 //!
 //! The crate knows no mesh and no pixel.
 
+mod average;
 mod error;
+mod exact;
+mod homogeneous;
 mod model;
 mod range_max;
 mod segment;
+pub mod series;
+mod special;
+mod thick_vertex;
 mod transfer;
+pub mod weights;
 
+pub use average::average;
 pub use error::{NameError, TransferFunctionError};
+pub use exact::exact;
 pub use model::{Integration, OpticalModel};
 pub use segment::{RgbaAssoc, Segment};
+pub use thick_vertex::thick_vertex;
 pub use transfer::{Piece, TransferFunction};
+pub use weights::Weights;
+
+#[cfg(test)]
+mod methods_tests;

@@ -44,29 +44,30 @@ pub struct Piece {
 }
 
 impl Piece {
-    /// Where a scalar lies in the piece: 0 at `start`, 1 at `end`; clamped. 0 in a piece without an end.
-    pub fn share(&self, scalar: f64) -> f64 {
-        let width = self.end - self.start;
-        let share = if width.is_finite() {
-            (scalar - self.start) / width
-        } else if self.start.is_finite() && self.end.is_finite() {
-            // Wider than the largest float: halves keep the difference finite.
-            (0.5 * scalar - 0.5 * self.start) / (0.5 * self.end - 0.5 * self.start)
+    /// How much the values at `start` and at `end` count at a scalar: not negative, adding up to 1.
+    ///
+    /// Beyond the piece, and in one without an end, the nearer end counts alone.
+    #[inline]
+    pub fn shares(&self, scalar: f64) -> [f64; 2] {
+        if self.start.is_finite() && self.end.is_finite() {
+            shares(self.start, self.end, scalar.clamp(self.start, self.end))
         } else {
-            0.0
-        };
-        share.clamp(0.0, 1.0)
+            // Both values are equal.
+            [1.0, 0.0]
+        }
     }
 
     /// Extinction at a scalar; beyond the piece, that at the nearer end.
+    #[inline]
     pub fn extinction_at(&self, scalar: f64) -> f64 {
-        mix(self.extinction[0], self.extinction[1], self.share(scalar))
+        mix(self.extinction[0], self.extinction[1], self.shares(scalar))
     }
 
     /// Color at a scalar; beyond the piece, that at the nearer end.
+    #[inline]
     pub fn color_at(&self, scalar: f64) -> [f64; 3] {
-        let share = self.share(scalar);
-        core::array::from_fn(|channel| mix(self.color[0][channel], self.color[1][channel], share))
+        let shares = self.shares(scalar);
+        core::array::from_fn(|channel| mix(self.color[0][channel], self.color[1][channel], shares))
     }
 
     /// Whether color and extinction are the same at both ends.
@@ -266,13 +267,8 @@ fn between<const N: usize>(points: &[ControlPoint<N>], next: usize, scalar: f64)
     }
     let below = &points[next - 1];
     let Some(above) = points.get(next) else { return below.value };
-    let width = above.scalar - below.scalar;
-    let share = if width.is_finite() {
-        (scalar - below.scalar) / width
-    } else {
-        (0.5 * scalar - 0.5 * below.scalar) / (0.5 * above.scalar - 0.5 * below.scalar)
-    };
-    core::array::from_fn(|i| mix(below.value[i], above.value[i], share))
+    let shares = shares(below.scalar, above.scalar, scalar);
+    core::array::from_fn(|i| mix(below.value[i], above.value[i], shares))
 }
 
 fn scaled<const N: usize>(points: &[ControlPoint<N>], factor: f64) -> Vec<ControlPoint<N>> {
@@ -283,10 +279,26 @@ fn scaled<const N: usize>(points: &[ControlPoint<N>], factor: f64) -> Vec<Contro
     points.iter().map(scale).collect()
 }
 
-/// Linear interpolation that hits both ends, never leaves them and does not overflow. Adding zero turns -0 into 0.
+/// Shares of the two ends at a scalar between them.
+///
+/// Both come from a difference of their own: one minus the other share would lose the digits of a value that falls to
+/// zero at the far end.
 #[inline]
-fn mix(start: f64, end: f64, share: f64) -> f64 {
-    start * (1.0 - share) + end * share + 0.0
+fn shares(start: f64, end: f64, scalar: f64) -> [f64; 2] {
+    let width = end - start;
+    if width.is_finite() {
+        [(end - scalar) / width, (scalar - start) / width]
+    } else {
+        // Wider than the largest float: halves keep the differences finite.
+        let width = 0.5 * end - 0.5 * start;
+        [(0.5 * end - 0.5 * scalar) / width, (0.5 * scalar - 0.5 * start) / width]
+    }
+}
+
+/// Linear interpolation that hits both ends and does not overflow. Adding zero turns -0 into 0.
+#[inline]
+fn mix(at_start: f64, at_end: f64, shares: [f64; 2]) -> f64 {
+    at_start * shares[0] + at_end * shares[1] + 0.0
 }
 
 fn brightest(color: [f64; 3]) -> f64 {

@@ -1,0 +1,21 @@
+//! The integral of a segment of one color and one extinction.
+
+use crate::{OpticalModel, RgbaAssoc};
+
+/// With `tau = extinction * length`: opacity `1 - exp(-tau)`, and light `color * opacity` where the extinction glows,
+/// `color * length * (1 - exp(-tau)) / tau` where the color is radiance per length.
+pub(crate) fn light(model: OpticalModel, extinction: f64, color: [f64; 3], length: f64) -> RgbaAssoc {
+    if length == 0.0 {
+        return RgbaAssoc::TRANSPARENT;
+    }
+    let tau = if model.needs_extinction() { extinction * length } else { 0.0 };
+    let opacity = -(-tau).exp_m1();
+    let factor = match model {
+        OpticalModel::DensityEmitter => opacity,
+        // `opacity / extinction` has no value at 0; the mean transmittance has.
+        OpticalModel::Emitter if tau > 0.0 => length * (opacity / tau),
+        OpticalModel::Emitter | OpticalModel::Emission => length,
+        OpticalModel::Absorption => 0.0,
+    };
+    RgbaAssoc { rgb: color.map(|channel| channel * factor), opacity }
+}
