@@ -163,6 +163,7 @@ impl ArrayValues {
     }
 
     /// All numbers as f64; integers beyond 2⁵³ are rounded.
+    #[expect(clippy::unnecessary_cast, reason = "one expression for all types, of which f64 is one")]
     pub fn to_f64(&self) -> Vec<f64> {
         each_type!(self, v => v.iter().map(|&x| x as f64).collect())
     }

@@ -25,11 +25,14 @@ impl Frame {
     pub fn fitting(lowest: DVec3, highest: DVec3) -> Self {
         // Halves first: the sum of two coordinates near the largest float would overflow.
         let center = lowest * 0.5 + highest * 0.5;
-        let half_diagonal = (highest * 0.5 - lowest * 0.5).length();
+        // Divided by its largest component before it is squared: sizes of 1e-200 and 1e200 have a length too.
+        let half = highest * 0.5 - lowest * 0.5;
+        let largest = half.abs().max_element();
+        let half_diagonal = if largest > 0.0 { (half / largest).length() * largest } else { 0.0 };
         if !center.is_finite() {
             return Self::WORLD;
         }
-        if !half_diagonal.is_finite() || half_diagonal <= f64::MIN_POSITIVE {
+        if !half_diagonal.is_finite() || half_diagonal < f64::MIN_POSITIVE {
             return Self { origin: center, scale: 1.0 };
         }
         let scale = half_diagonal.log2().ceil().clamp(-1000.0, 1000.0).exp2();

@@ -8,11 +8,16 @@
 //! The crate knows no camera, no color and no file.
 
 mod dataset;
+mod decompose;
+mod error;
 mod frame;
 mod ids;
+mod orientation;
 mod tet_mesh;
 
 pub use dataset::{ArrayValues, CellKind, Cells, DataArray, Dataset, StructuredBlock, UnstructuredCells};
+pub use decompose::{AddedPoint, Decomposition, DecompositionCounts, cell_data_to_points, decompose};
+pub use error::MeshError;
 pub use frame::Frame;
 pub use ids::{CellId, FaceId, VertexId};
 pub use tet_mesh::TetMesh;
