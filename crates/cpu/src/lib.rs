@@ -1,1 +1,59 @@
-//! The CPU back end.
+//! The CPU back end: it needs no driver, it is the default, and it is what other back ends are measured against.
+//!
+//! Two renderers live here, kept apart, and both follow a [`Plan`](tetrascope_scene::Plan):
+//!
+//! - [`reference`] clips every pixel's ray against every tetrahedron in f64, sorts what it finds along each ray and
+//!   integrates exactly. It needs no visibility order and handles cycles. Slow, and the judge.
+//! - [`CpuRenderer`] is what users run: one set-up per tetrahedron, tiles, eight pixels at a time in f32, all cores. It
+//!   draws the cells in the order that the plan names.
+//!
+//! Both see a cell through the same four planes, so they agree on which pixels it covers, seams included: a ray that runs
+//! exactly in a face, along an edge or through a vertex belongs to exactly one cell.
+//!
+//! ```
+//! use glam::DVec3;
+//! use tetrascope_cpu::CpuRenderer;
+//! use tetrascope_integrate::{Integration, OpticalModel, TransferFunction};
+//! use tetrascope_mesh::TetMesh;
+//! use tetrascope_order::OrderMethod;
+//! use tetrascope_scene::{Backend, Plan, Silent};
+//! use tetrascope_view::{Camera, Projection, View};
+//!
+//! let corners = [DVec3::ZERO, DVec3::X, DVec3::Y, DVec3::Z];
+//! let mesh = TetMesh::from_tetrahedra(&corners, &[[0, 1, 2, 3]])?.mesh;
+//! let camera = Camera {
+//!     eye: DVec3::splat(3.0),
+//!     target: DVec3::ZERO,
+//!     up: DVec3::Y,
+//!     projection: Projection::Perspective { fov_y: 0.5 },
+//! };
+//! let plan = Plan {
+//!     view: View::new(&camera, 64, 64)?,
+//!     background: [0.0; 3],
+//!     transfer: TransferFunction::new(&[[0.0, 0.9, 0.6, 0.2]], &[[0.0, 2.0]])?,
+//!     model: OpticalModel::DensityEmitter,
+//!     integration: Integration::Exact,
+//!     order: OrderMethod::Centroid,
+//!     backend: Backend::Cpu,
+//!     threads: None,
+//!     termination: 0.0,
+//!     decisions: Vec::new(),
+//! };
+//! let rendered = CpuRenderer::new(&mesh, &[0.0, 1.0, 2.0, 3.0])?.render(&plan, &Silent)?;
+//! assert!(rendered.image.pixel(32, 32)[3] > 0.1);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+//!
+//! Limits: cells are blended in one global order, so that the fast renderer is right only where that order is; the
+//! reference keeps all fragments of a tile in memory.
+
+mod error;
+//mod fast;
+mod geometry;
+mod grid;
+pub mod reference;
+mod rendered;
+
+pub use error::RenderError;
+//pub use fast::CpuRenderer;
+pub use rendered::{Counts, Rendered};

@@ -1,0 +1,178 @@
+//! The fast renderer: one set-up per tetrahedron, tiles, eight pixels at a time in f32, all cores.
+//!
+//! A frame runs through five stages:
+//! 1. transform: every point once into pixel space (f64);
+//! 2. order: the cells that can be seen, sorted front to back by the plan's order;
+//! 3. set up: each cell becomes a [`record::CellRecord`] in that order: four planes in f32 about a reference inside the cell;
+//! 4. bin: which tiles each record touches;
+//! 5. rasterize: each tile, on one core, blends its records front to back.
+//!
+//! Cells stay in one order from stage 2 on and every tile is drawn by one thread, so that the picture does not depend on the number of
+//! threads. What depends on the transfer function alone is kept from frame to frame.
+
+mod lanes;
+mod optics;
+mod record;
+mod shade;
+mod tile;
+
+use std::sync::atomic::{AtomicU64, Ordering};
+use std::sync::{Arc, Mutex, PoisonError};
+
+use fearless_simd::Level;
+use glam::DVec3;
+use rayon::prelude::*;
+
+use tetrascope_mesh::{CellId, Frame, TetMesh, VertexId};
+use tetrascope_order::Cells;
+use tetrascope_scene::{Plan, Progress, Stage};
+use tetrascope_view::LinearImage;
+
+use crate::error::{check_scalars, on_threads};
+use crate::geometry::{PixelSpace, ascending, pixel_box};
+use crate::grid::{Bins, TileGrid};
+use crate::rendered::Stopwatch;
+use crate::{Counts, RenderError, Rendered};
+use optics::Optics;
+use record::{CellRecord, Records};
+
+/// Pixels a side of a tile: color, transmittance and ray of its pixels take 20 KiB, which leaves room in a first-level cache.
+const TILE_SIDE: u32 = 32;
+
+/// Cells that one task sets up: enough to hide its start, few enough to spread over the cores.
+const CHUNK: usize = 4096;
+
+/// Draws one field on one mesh, again and again.
+///
+/// Holds its own copy of what it needs: 16 bytes a tetrahedron and 24 a point, and 8 more a tetrahedron for the last transfer function.
+#[derive(Debug)]
+pub struct CpuRenderer {
+    frame: Frame,
+    positions: Vec<DVec3>,
+    scalars: Vec<f64>,
+    /// Vertices in ascending order.
+    tetrahedra: Vec<[VertexId; 4]>,
+    /// Whether the volume in that order is positive.
+    is_positive: Vec<bool>,
+    /// The instructions that the processor has.
+    level: Level,
+    /// Of the last transfer function.
+    optics: Mutex<Option<Arc<Optics>>>,
+}
+
+impl CpuRenderer {
+    /// Prepares a mesh and a field.
+    ///
+    /// - `scalars`: one a point of the mesh
+    ///
+    /// # Errors
+    /// [`RenderError`] if `scalars` does not fit the mesh or holds a value that is not finite where a tetrahedron uses it.
+    pub fn new(mesh: &TetMesh, scalars: &[f64]) -> Result<Self, RenderError> {
+        check_scalars(mesh, scalars)?;
+        let (tetrahedra, is_positive) = mesh
+            .tetrahedra()
+            .par_iter()
+            .map(|t| {
+                let (vertices, is_positive) = ascending(t.map(|v| v.0));
+                (vertices.map(VertexId), is_positive)
+            })
+            .unzip();
+        Ok(Self {
+            frame: mesh.frame(),
+            positions: mesh.positions().to_vec(),
+            scalars: scalars.to_vec(),
+            tetrahedra,
+            is_positive,
+            level: Level::new(),
+            optics: Mutex::new(None),
+        })
+    }
+
+    /// Draws a picture as the plan says; the plan's back end is ignored.
+    ///
+    /// The same plan gives the same bits, whatever the number of threads.
+    ///
+    /// # Errors
+    /// [`RenderError::Threads`] if the plan asks for threads that cannot be started.
+    pub fn render(&self, plan: &Plan, progress: &dyn Progress) -> Result<Rendered, RenderError> {
+        on_threads(plan.threads, || self.render_here(plan, progress))
+    }
+
+    fn render_here(&self, plan: &Plan, progress: &dyn Progress) -> Rendered {
+        let mut watch = Stopwatch::start();
+        let optics = self.optics(plan);
+        watch.lap(Stage::Prepare);
+
+        let view = plan.view.in_frame(self.frame.origin, self.frame.scale);
+        let space = PixelSpace::new(&view, self.frame.scale);
+        let points: Vec<DVec3> = self.positions.par_iter().map(|&p| space.transform(p)).collect();
+        watch.lap(Stage::Transform);
+
+        let seen: Vec<CellId> = optics
+            .visible()
+            .par_iter()
+            .copied()
+            .filter(|cell| pixel_box(&self.tetrahedra[cell.index()].map(|v| points[v.index()]), &space).is_some())
+            .collect();
+        let cells = Cells { positions: &self.positions, tetrahedra: &self.tetrahedra };
+        let order = plan.order.make().order(cells, view.viewpoint(), &seen);
+        watch.lap(Stage::Order);
+
+        let setup = record::SetUp { renderer: self, points: &points, space: &space, optics: &optics };
+        let records: Vec<Records> =
+            order.front_to_back.par_chunks(CHUNK).map(|chunk| setup.records(chunk)).collect();
+        watch.lap(Stage::SetUp);
+
+        let grid = TileGrid::new(space.size, TILE_SIDE);
+        let bins: Vec<Bins> = records
+            .par_iter()
+            .map(|records| grid.bin(records.cells.iter().map(CellRecord::outline), |item, tile| records.may_show(item, tile, &space)))
+            .collect();
+        watch.lap(Stage::Bin);
+
+        let fragments = AtomicU64::new(0);
+        let done = AtomicU64::new(0);
+        let job = tile::Job { records: &records, bins: &bins, grid, space: &space, optics: &optics, plan, level: self.level };
+        let tiles: Vec<tile::Pixels> = (0..grid.len())
+            .into_par_iter()
+            .with_max_len(1)
+            .map(|index| {
+                let (pixels, count) = job.draw(index);
+                fragments.fetch_add(count, Ordering::Relaxed);
+                progress.report(Stage::Rasterize, done.fetch_add(1, Ordering::Relaxed) + 1, grid.len() as u64);
+                pixels
+            })
+            .collect();
+        let mut image = LinearImage::transparent(space.size[0], space.size[1]);
+        for (index, pixels) in tiles.iter().enumerate() {
+            pixels.copy_to(grid.tile(index), &mut image);
+        }
+        watch.lap(Stage::Rasterize);
+
+        let all = self.tetrahedra.len() as u64;
+        let visible = optics.visible().len() as u64;
+        let drawn = records.iter().map(|r| r.cells.len() as u64).sum();
+        let counts = Counts {
+            cells: all,
+            transparent: all - visible,
+            outside: visible - seen.len() as u64,
+            drawn,
+            careful: records.iter().map(|r| r.careful.len() as u64).sum(),
+            fragments: fragments.into_inner(),
+        };
+        Rendered { image, timings: watch.finish(), counts }
+    }
+
+    /// What the plan's transfer function makes of the cells; made anew only when it changed.
+    fn optics(&self, plan: &Plan) -> Arc<Optics> {
+        let mut kept = self.optics.lock().unwrap_or_else(PoisonError::into_inner);
+        match &*kept {
+            Some(optics) if optics.is_for(&plan.transfer, plan.model) => Arc::clone(optics),
+            _ => {
+                let optics = Arc::new(Optics::new(&plan.transfer, plan.model, &self.tetrahedra, &self.scalars));
+                *kept = Some(Arc::clone(&optics));
+                optics
+            }
+        }
+    }
+

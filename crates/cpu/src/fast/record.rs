@@ -1,0 +1,227 @@
+//! Set-up: a tetrahedron becomes a record of planes in f32, about a reference inside it.
+//!
+//! What is linear on the screen is the nearness: 1/depth in a perspective view, minus the depth in an orthographic one.
+//! Each face's nearness is a plane over the pixels; a ray is inside between the nearest of the entry faces' planes and the farthest of
+//! the exit faces'. Here nearness is relative to that of a reference point in the cell (perspective: `reference depth / depth - 1`;
+//! orthographic: `reference depth - depth`), which keeps thin and far cells from cancelling in f32, and pixels are
+//! counted from the reference's. Scalars are relative to the scalar at the reference. With `e` the nearness:
+//! - chord length, in units of the reference depth and of the ray's stretch: `(e_f - e_b) / ((1 + e_f) (1 + e_b))`;
+//! - scalar: `(G - k e) / (1 + e)` with `G` linear in the pixels. Without the denominators when orthographic.
+
+use glam::DVec3;
+use tetrascope_mesh::CellId;
+
+use super::CpuRenderer;
+use super::optics::{CellPieces, Optics};
+use crate::geometry::{ClipCell, PixelBox, PixelSpace, is_outside_rectangle, pixel_box};
+use crate::grid::Tile;
+
+/// A face counts as steep when its plane, over the cell's pixels, runs through this many times the cell's own range of nearness: then
+/// rounding in f32 is 3e-7 times as much of the cell's chord, and the cell is drawn in f64 instead.
+const STEEP: f64 = 256.0;
+
+/// A cell whose nearest point is closer than this share of its farthest is drawn in f64: it reaches the plane of the eye, or nearly.
+const NEAR: f64 = 1e-2;
+
+/// A cell, ready to be drawn; two cache lines.
+#[derive(Clone, Copy, Debug)]
+#[repr(C, align(64))]
+pub(crate) struct CellRecord {
+    /// Relative nearness of the four faces' planes, entry faces first: at the reference pixel, per column, per row.
+    pub(crate) planes: [[f32; 3]; 4],
+    /// `G` per column and row, and `k`.
+    pub(crate) scalar: [f32; 3],
+    /// Bounds of relative nearness: those of the cell's corners.
+    pub(crate) nearness_range: [f32; 2],
+    /// Lowest and highest scalar, relative to the reference.
+    pub(crate) scalar_range: [f32; 2],
+    /// The scalar at the reference.
+    pub(crate) scalar_reference: f64,
+    /// World length of the cell's unit of length.
+    pub(crate) length: f64,
+    /// The reference pixel: column and row.
+    pub(crate) pixel: [u16; 2],
+    outline: [u16; 4],
+    pub(crate) pieces: CellPieces,
+    /// How many of the planes are of entry faces, 1 to 3; 0 for a cell to be drawn carefully.
+    pub(crate) entry_count: u32,
+    /// For a cell to be drawn carefully: its number in [`Records::careful`].
+    pub(crate) careful: u32,
+}
+
+impl CellRecord {
+    pub(crate) fn outline(&self) -> PixelBox {
+        self.outline.map(u32::from)
+    }
+}
+
+/// Corners and scalars of a cell that is drawn in f64, in ascending order of the vertices.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct CarefulCell {
+    pub(crate) corners: [DVec3; 4],
+    pub(crate) clip: ClipCell,
+}
+
+/// The records of a run of cells in visibility order.
+#[derive(Debug, Default)]
+pub(crate) struct Records {
+    pub(crate) cells: Vec<CellRecord>,
+    pub(crate) careful: Vec<CarefulCell>,
+}
+
+impl Records {
+    /// Whether a cell whose outline touches a tile may show in it: cells at the plane of the eye have the whole picture as outline.
+    pub(crate) fn may_show(&self, item: usize, tile: Tile, space: &PixelSpace) -> bool {
+        let record = &self.cells[item];
+        if record.entry_count > 0 || !space.is_perspective {
+            return true;
+        }
+        let [u0, w0] = [PixelSpace::center(tile.x, space.size[0]), PixelSpace::center(tile.y, space.size[1])];
+        let [u1, w1] = [u0 + f64::from(tile.width - 1), w0 + f64::from(tile.height - 1)];
+        let corners = &self.careful[record.careful as usize].corners;
+        // Half a pixel of margin: rounding moves an outline by far less.
+        !is_outside_rectangle(corners, [u0 - 0.5, u1 + 0.5], [w0 - 0.5, w1 + 0.5])
+    }
+}
+
+/// What set-up needs to know.
+pub(crate) struct SetUp<'a> {
+    pub(crate) renderer: &'a CpuRenderer,
+    /// All points in pixel space.
+    pub(crate) points: &'a [DVec3],
+    pub(crate) space: &'a PixelSpace,
+    pub(crate) optics: &'a Optics,
+}
+
+impl SetUp<'_> {
+    /// Sets up cells in the order given; those without volume or outside the picture are left out.
+    pub(crate) fn records(&self, cells: &[CellId]) -> Records {
+        let mut records = Records { cells: Vec::with_capacity(cells.len()), careful: Vec::new() };
+        for &cell in cells {
+            let vertices = self.renderer.tetrahedra[cell.index()];
+            let corners = vertices.map(|v| self.points[v.index()]);
+            let scalars = vertices.map(|v| self.renderer.scalars[v.index()]);
+            let is_positive = self.renderer.is_positive[cell.index()];
+            let Some(outline) = pixel_box(&corners, self.space) else { continue };
+            let pieces = self.optics.pieces_of(cell);
+            let record = self.record(&corners, &scalars, is_positive, outline, pieces).or_else(|| {
+                let clip = ClipCell::new(&corners, &scalars, is_positive)?;
+                records.careful.push(CarefulCell { corners, clip });
+                Some(self.careful_record(&scalars, outline, pieces, records.careful.len() - 1))
+            });
+            records.cells.extend(record);
+        }
+        records
+    }
+
+    /// The record of a cell that f32 can draw; `None` if it cannot.
+    fn record(
+        &self,
+        corners: &[DVec3; 4],
+        scalars: &[f64; 4],
+        is_positive: bool,
+        outline: PixelBox,
+        pieces: CellPieces,
+    ) -> Option<CellRecord> {
+        let [a, b, c, d] = *corners;
+        let is_perspective = self.space.is_perspective;
+        let nearest = a.z.min(b.z).min(c.z).min(d.z);
+        let farthest = a.z.max(b.z).max(c.z).max(d.z);
+        if nearest <= if is_perspective { NEAR * farthest } else { 0.0 } {
+            return None;
+        }
+        // Outward normals, and what they make of the edge from the first corner.
+        let sign = if is_positive { 1.0 } else { -1.0 };
+        let (ab, ac, ad) = ((b - a) * sign, c - a, d - a);
+        let n1 = -ac.cross(ad) * sign;
+        let n2 = ab.cross(ad);
+        let n3 = -ab.cross(ac);
+        let n0 = -(n1 + n2 + n3);
+        let six_volume = -n1.dot(b - a);
+        if !(six_volume > 0.0 && six_volume.is_finite()) {
+            return None;
+        }
+
+        let [x0, x1, y0, y1] = outline;
+        let pixel = [(x0 + x1) / 2, (y0 + y1) / 2];
+        let [u, w] = [PixelSpace::center(pixel[0], self.space.size[0]), PixelSpace::center(pixel[1], self.space.size[1])];
+        let depth = (a.z + b.z + c.z + d.z) * 0.25;
+        let (reference, across) =
+            if is_perspective { (DVec3::new(u, w, 1.0) * depth, depth) } else { (DVec3::new(u, w, depth), 1.0) };
+        let nearness_range = if is_perspective {
+            [depth / farthest - 1.0, depth / nearest - 1.0]
+        } else {
+            [depth - farthest, depth - nearest]
+        };
+        let limit = STEEP * (nearness_range[1] - nearness_range[0]);
+        let half = [f64::from(x1 - x0) * 0.5 + 4.0, f64::from(y1 - y0) * 0.5 + 4.0];
+
+        let from_b = reference - b;
+        let from_a = reference - a;
+        let mut planes = [[0.0_f32; 3]; 4];
+        let (mut entry, mut exit) = (0, 3);
+        for (normal, point, from) in [(n0, b, from_b), (n1, a, from_a), (n2, a, from_a), (n3, a, from_a)] {
+            let away = if is_perspective { normal.dot(point) } else { normal.z };
+            let inverse = 1.0 / away;
+            let plane = [normal.dot(from) * inverse, normal.x * across * inverse, normal.y * across * inverse];
+            if !(plane[0].abs() + plane[1].abs() * half[0] + plane[2].abs() * half[1] <= limit) {
+                return None;
+            }
+            let slot = if away < 0.0 { &mut entry } else { &mut exit };
+            // Four entry faces, or none, are rounding: no ray has room between.
+            if *slot > 3 {
+                return None;
+            }
+            planes[*slot] = plane.map(|x| x as f32);
+            if away < 0.0 { entry += 1 } else { exit = exit.wrapping_sub(1) }
+        }
+        if entry == 0 || entry == 4 {
+            return None;
+        }
+
+        let gradient =
+            -(n1 * (scalars[1] - scalars[0]) + n2 * (scalars[2] - scalars[0]) + n3 * (scalars[3] - scalars[0])) / six_volume;
+        let scalar_reference = scalars[0] + gradient.dot(from_a);
+        let low = scalars.iter().fold(f64::INFINITY, |m, &s| m.min(s));
+        let high = scalars.iter().fold(f64::NEG_INFINITY, |m, &s| m.max(s));
+        let along = if is_perspective { gradient.dot(reference) } else { gradient.z };
+        let scalar = [gradient.x * across, gradient.y * across, along];
+        let scalar_limit = STEEP * (high - low);
+        if !(scalar[0].abs() * half[0] + scalar[1].abs() * half[1] <= scalar_limit
+            && along.abs() * (nearness_range[1] - nearness_range[0]) <= scalar_limit)
+        {
+            return None;
+        }
+        Some(CellRecord {
+            planes,
+            scalar: scalar.map(|x| x as f32),
+            nearness_range: nearness_range.map(|x| x as f32),
+            scalar_range: [(low - scalar_reference) as f32, (high - scalar_reference) as f32],
+            scalar_reference,
+            length: self.space.world_per_depth * across,
+            pixel: pixel.map(|p| p as u16),
+            outline: outline.map(|p| p as u16),
+            pieces,
+            entry_count: entry as u32,
+            careful: 0,
+        })
+    }
+
+    fn careful_record(&self, scalars: &[f64; 4], outline: PixelBox, pieces: CellPieces, careful: usize) -> CellRecord {
+        let low = scalars.iter().fold(f64::INFINITY, |m, &s| m.min(s));
+        let high = scalars.iter().fold(f64::NEG_INFINITY, |m, &s| m.max(s));
+        CellRecord {
+            planes: [[0.0; 3]; 4],
+            scalar: [0.0; 3],
+            nearness_range: [0.0; 2],
+            scalar_range: [0.0, (high - low) as f32],
+            scalar_reference: low,
+            length: self.space.world_per_depth,
+            pixel: [0; 2],
+            outline: outline.map(|p| p as u16),
+            pieces,
+            entry_count: 0,
+            careful: careful as u32,
+        }
+    }
+}

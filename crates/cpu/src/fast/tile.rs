@@ -1,0 +1,180 @@
+//! One tile of the picture: its cells blended front to back, eight pixels at a time.
+
+use fearless_simd::{Level, Simd, dispatch, f32x8, prelude::*};
+use tetrascope_integrate::{Integration, OpticalModel};
+use tetrascope_scene::Plan;
+use tetrascope_view::LinearImage;
+
+use super::lanes::{BLOCK_HEIGHT, BLOCK_WIDTH, LANES, PlaneRow, Sample, careful_sample};
+use super::optics::{LocalPiece, Optics};
+use super::record::{CellRecord, Records};
+use super::shade::{Absorption, Average, DensityEmitter, Emission, Emitter, Exact, Light, Method, Model};
+use crate::geometry::PixelSpace;
+use crate::grid::{Bins, Tile, TileGrid};
+
+/// Everything that drawing a tile needs.
+pub(crate) struct Job<'a> {
+    pub(crate) records: &'a [Records],
+    /// One for each of `records`.
+    pub(crate) bins: &'a [Bins],
+    pub(crate) grid: TileGrid,
+    pub(crate) space: &'a PixelSpace,
+    pub(crate) optics: &'a Optics,
+    pub(crate) plan: &'a Plan,
+    pub(crate) level: Level,
+}
+
+/// Color and transmittance of the eight pixels of a block, and how much longer their rays are than straight ahead.
+#[derive(Clone, Copy, Debug)]
+#[repr(C, align(32))]
+struct Block {
+    rgb: [[f32; LANES]; 3],
+    transmittance: [f32; LANES],
+    stretch: [f32; LANES],
+}
+
+/// The pixels of a tile, block after block.
+pub(crate) struct Pixels {
+    blocks: Vec<Block>,
+    /// Blocks a row.
+    columns: u32,
+}
+
+impl Pixels {
+    fn new(tile: Tile, space: &PixelSpace) -> Self {
+        let (columns, rows) = (tile.width.div_ceil(BLOCK_WIDTH), tile.height.div_ceil(BLOCK_HEIGHT));
+        let block = |index: u32| {
+            let (x, y) = (tile.x + index % columns * BLOCK_WIDTH, tile.y + index / columns * BLOCK_HEIGHT);
+            let stretch = |lane: usize| {
+                let (column, row) = (x + lane as u32 % BLOCK_WIDTH, y + lane as u32 / BLOCK_WIDTH);
+                let (u, w) = (PixelSpace::center(column, space.size[0]), PixelSpace::center(row, space.size[1]));
+                (space.ray_stretch(u, w) / space.world_per_depth) as f32
+            };
+            Block { rgb: [[0.0; LANES]; 3], transmittance: [1.0; LANES], stretch: std::array::from_fn(stretch) }
+        };
+        Self { blocks: (0..columns * rows).map(block).collect(), columns }
+    }
+
+    /// Writes the pixels that lie in the picture.
+    pub(crate) fn copy_to(&self, tile: Tile, image: &mut LinearImage) {
+        let width = image.width() as usize;
+        for y in 0..tile.height {
+            for x in 0..tile.width {
+                let block = &self.blocks[(y / BLOCK_HEIGHT * self.columns + x / BLOCK_WIDTH) as usize];
+                let lane = (y % BLOCK_HEIGHT * BLOCK_WIDTH + x % BLOCK_WIDTH) as usize;
+                let [r, g, b] = [0, 1, 2].map(|c| block.rgb[c][lane]);
+                image.pixels_mut()[(tile.y + y) as usize * width + (tile.x + x) as usize] =
+                    [r, g, b, 1.0 - block.transmittance[lane]];
+            }
+        }
+    }
+}
+
+impl Job<'_> {
+    /// Draws a tile; also gives the number of fragments.
+    pub(crate) fn draw(&self, index: usize) -> (Pixels, u64) {
+        match self.plan.integration {
+            Integration::Average => self.draw_with::<Average>(index),
+            _ => self.draw_with::<Exact>(index),
+        }
+    }
+
+    fn draw_with<I: Method>(&self, index: usize) -> (Pixels, u64) {
+        match self.optics.model {
+            OpticalModel::DensityEmitter => self.draw_as::<I, DensityEmitter>(index),
+            OpticalModel::Emitter => self.draw_as::<I, Emitter>(index),
+            OpticalModel::Absorption => self.draw_as::<I, Absorption>(index),
+            OpticalModel::Emission => self.draw_as::<I, Emission>(index),
+        }
+    }
+
+    fn draw_as<I: Method, M: Model>(&self, index: usize) -> (Pixels, u64) {
+        if self.space.is_perspective {
+            dispatch!(self.level, simd => self.draw_tile::<_, I, M, true>(simd, index))
+        } else {
+            dispatch!(self.level, simd => self.draw_tile::<_, I, M, false>(simd, index))
+        }
+    }
+
+    #[inline(always)]
+    fn draw_tile<S: Simd, I: Method, M: Model, const PERSPECTIVE: bool>(&self, simd: S, index: usize) -> (Pixels, u64) {
+        let tile = self.grid.tile(index);
+        let mut pixels = Pixels::new(tile, self.space);
+        let mut fragments = 0;
+        let mut pieces = Vec::new();
+        for (records, bins) in self.records.iter().zip(self.bins) {
+            for &item in bins.of(index) {
+                let record = &records.cells[item as usize];
+                self.optics.localize(record.pieces, record.scalar_reference, record.scalar_range, record.length, &mut pieces);
+                fragments +=
+                    self.draw_cell::<S, I, M, PERSPECTIVE>(simd, tile, records, record, &pieces, &mut pixels);
+            }
+        }
+        (pixels, fragments)
+    }
+
+    /// Blends one cell into the tile; gives its number of fragments.
+    #[inline(always)]
+    fn draw_cell<S: Simd, I: Method, M: Model, const PERSPECTIVE: bool>(
+        &self,
+        simd: S,
+        tile: Tile,
+        records: &Records,
+        record: &CellRecord,
+        pieces: &[LocalPiece],
+        pixels: &mut Pixels,
+    ) -> u64 {
+        let [x0, x1, y0, y1] = record.outline();
+        let first_column = x0.max(tile.x) - tile.x;
+        let last_column = x1.min(tile.x + tile.width - 1) - tile.x;
+        let first_row = y0.max(tile.y) - tile.y;
+        let last_row = y1.min(tile.y + tile.height - 1) - tile.y;
+        let mut fragments = 0;
+        for row in first_row / BLOCK_HEIGHT..=last_row / BLOCK_HEIGHT {
+            let y = tile.y + row * BLOCK_HEIGHT;
+            let blocks = &mut pixels.blocks[(row * pixels.columns) as usize..][..pixels.columns as usize];
+            let columns = first_column / BLOCK_WIDTH..=last_column / BLOCK_WIDTH;
+            if record.entry_count > 0 {
+                let planes = PlaneRow::new(simd, record, y);
+                for column in columns {
+                    if let Some(sample) = planes.sample::<PERSPECTIVE>(simd, tile.x + column * BLOCK_WIDTH) {
+                        fragments += blend::<S, I, M, PERSPECTIVE>(simd, pieces, sample, &mut blocks[column as usize]);
+                    }
+                }
+            } else {
+                let careful = &records.careful[record.careful as usize];
+                for column in columns {
+                    let place = [tile.x + column * BLOCK_WIDTH, y];
+                    if let Some(sample) = careful_sample(simd, careful, record.scalar_reference, self.space, place) {
+                        fragments += blend::<S, I, M, PERSPECTIVE>(simd, pieces, sample, &mut blocks[column as usize]);
+                    }
+                }
+            }
+        }
+        fragments
+    }
+}
+
+/// Puts a cell's light behind what a block has; gives the number of pixels covered.
+#[inline(always)]
+fn blend<S: Simd, I: Method, M: Model, const PERSPECTIVE: bool>(
+    simd: S,
+    pieces: &[LocalPiece],
+    mut sample: Sample<S>,
+    block: &mut Block,
+) -> u64 {
+    if PERSPECTIVE {
+        sample.length = sample.length * f32x8::from_slice(simd, &block.stretch);
+    }
+    let Light { rgb, transmittance } = I::shade::<S, M>(simd, pieces, &sample);
+    let before = f32x8::from_slice(simd, &block.transmittance);
+    if M::EMITS {
+        for (channel, color) in block.rgb.iter_mut().zip(rgb) {
+            before.mul_add(color, f32x8::from_slice(simd, channel)).store_slice(channel);
+        }
+    }
+    if M::ABSORBS {
+        (before * transmittance).store_slice(&mut block.transmittance);
+    }
+    u64::from(sample.covered.to_bitmask().count_ones())
+}

@@ -1,0 +1,227 @@
+//! A tetrahedron before a pixel's ray, in f64: the one definition of what a ray meets.
+
+use glam::DVec3;
+use tetrascope_view::View;
+
+/// Coordinates about the eye in which pixels are units.
+///
+/// A point becomes `(x, y, z)` with `z` its depth. In a perspective view the ray of the pixel center `(u, w)`, counted from
+/// the middle of the picture to the right and down, is `z (u, w, 1)`; in an orthographic one it is `(u, w, z)`, and all
+/// three axes have the pixel as unit. Right-handed, so that positive volumes stay positive.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct PixelSpace {
+    eye: DVec3,
+    right: DVec3,
+    down: DVec3,
+    forward: DVec3,
+    /// Whether rays spread.
+    pub(crate) is_perspective: bool,
+    /// World length of one unit of depth, straight ahead.
+    pub(crate) world_per_depth: f64,
+    /// Width of a pixel at depth 1, horizontally and vertically (perspective); the pixel's size in an orthographic view.
+    slope: [f64; 2],
+    /// Pixels a row, and rows.
+    pub(crate) size: [u32; 2],
+}
+
+impl PixelSpace {
+    /// The space of a view given in the mesh's local coordinates, of which one unit is `world_per_local` long.
+    pub(crate) fn new(view: &View, world_per_local: f64) -> Self {
+        let slope = [2.0 * view.half_width / f64::from(view.width), 2.0 * view.half_height / f64::from(view.height)];
+        let depth_unit = if view.is_perspective { 1.0 } else { slope[1] };
+        Self {
+            eye: view.eye,
+            right: view.right / slope[0],
+            down: -view.up / slope[1],
+            forward: view.forward / depth_unit,
+            is_perspective: view.is_perspective,
+            world_per_depth: world_per_local * depth_unit,
+            slope,
+            size: [view.width, view.height],
+        }
+    }
+
+    #[inline]
+    pub(crate) fn transform(&self, local: DVec3) -> DVec3 {
+        let from_eye = local - self.eye;
+        DVec3::new(from_eye.dot(self.right), from_eye.dot(self.down), from_eye.dot(self.forward))
+    }
+
+    /// Coordinate of the center of column (or row) `pixel` from the middle of a picture `size` pixels wide. Exact.
+    #[inline]
+    pub(crate) fn center(pixel: u32, size: u32) -> f64 {
+        f64::from(pixel) + 0.5 - f64::from(size) * 0.5
+    }
+
+    /// World length along the ray of `(u, w)` of one unit of depth.
+    #[inline]
+    pub(crate) fn ray_stretch(&self, u: f64, w: f64) -> f64 {
+        if !self.is_perspective {
+            return self.world_per_depth;
+        }
+        let (x, y) = (u * self.slope[0], w * self.slope[1]);
+        (1.0 + x * x + y * y).sqrt() * self.world_per_depth
+    }
+}
+
+/// A tetrahedron as the intersection of four half-spaces, and its scalar as an affine function.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct ClipCell {
+    faces: [ClipFace; 4],
+    gradient: DVec3,
+    scalar_at_anchor: f64,
+    anchor: DVec3,
+    scalar_range: [f64; 2],
+}
+
+/// The half-space behind a face: `normal . (x - point) <= 0`, the normal pointing out of the cell.
+#[derive(Clone, Copy, Debug)]
+struct ClipFace {
+    normal: DVec3,
+    point: DVec3,
+}
+
+/// Part of a ray inside a cell.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Span {
+    /// Depth where the ray enters and leaves, not negative.
+    pub(crate) depth: [f64; 2],
+    /// Scalar there.
+    pub(crate) scalar: [f64; 2],
+}
+
+/// Relative size under which a number that ought to be zero counts as zero: far above the rounding of the few operations
+/// that make it (some 1e-15), far below anything that a picture shows (1e-11 of the picture's width).
+const IN_PLANE: f64 = 1e-11;
+
+impl ClipCell {
+    /// From corners in pixel space, sorted by vertex index, and whether the volume in this order is positive.
+    ///
+    /// Every face's numbers come from its own three corners in ascending order, so that the two cells of a face get the
+    /// same bits with opposite sign: what one gives up the other takes, to the last bit.
+    /// `None` if the cell has no volume in f64.
+    pub(crate) fn new(corners: &[DVec3; 4], scalars: &[f64; 4], is_positive: bool) -> Option<Self> {
+        let [a, b, c, d] = *corners;
+        let sign = if is_positive { 1.0 } else { -1.0 };
+        let face = |sign: f64, p: DVec3, q: DVec3, r: DVec3| ClipFace { normal: (q - p).cross(r - p) * sign, point: p };
+        let faces = [face(sign, b, c, d), face(-sign, a, c, d), face(sign, a, b, d), face(-sign, a, b, c)];
+        // Twice: the normal of the face opposite to b is that of (c - a) x (d - a), turned.
+        let six_volume = -(b - a).dot(faces[1].normal);
+        if !(six_volume > 0.0 && six_volume.is_finite()) {
+            return None;
+        }
+        // A corner's share grows against the normal of the face opposite to it.
+        let mut gradient = DVec3::ZERO;
+        for corner in 1..4 {
+            gradient -= faces[corner].normal * ((scalars[corner] - scalars[0]) / six_volume);
+        }
+        let low = scalars.iter().fold(f64::INFINITY, |m, &s| m.min(s));
+        let high = scalars.iter().fold(f64::NEG_INFINITY, |m, &s| m.max(s));
+        Some(Self { faces, gradient, scalar_at_anchor: scalars[0], anchor: a, scalar_range: [low, high] })
+    }
+
+    /// What the ray of the pixel center `(u, w)` has inside, or `None`.
+    pub(crate) fn span(&self, is_perspective: bool, u: f64, w: f64) -> Option<Span> {
+        let (mut enter, mut leave) = (0.0_f64, f64::INFINITY);
+        for face in &self.faces {
+            let n = face.normal;
+            // normal . (origin + depth * direction - point) <= 0, as depth * speed <= room.
+            let (room, room_scale, speed, speed_scale) = if is_perspective {
+                let p = face.point;
+                let (nx, ny) = (n.x * u, n.y * w);
+                let (px, py, pz) = (n.x * p.x, n.y * p.y, n.z * p.z);
+                (px + py + pz, px.abs() + py.abs() + pz.abs(), nx + ny + n.z, nx.abs() + ny.abs() + n.z.abs())
+            } else {
+                let p = face.point - DVec3::new(u, w, 0.0);
+                let scale = n.abs().dot(face.point.abs() + DVec3::new(u.abs(), w.abs(), 0.0));
+                (n.dot(p), scale, n.z, n.abs().element_sum())
+            };
+            if room.abs() <= IN_PLANE * room_scale && speed.abs() <= IN_PLANE * speed_scale {
+                // The ray runs in the face. All cells about it agree to move the ray a little to the right and, by far
+                // less, down: then exactly one of them has it.
+                let outward = if n.x.abs() > IN_PLANE * n.y.abs() { n.x } else { n.y };
+                if outward >= 0.0 {
+                    return None;
+                }
+                continue;
+            }
+            let depth = room / speed;
+            if speed > 0.0 {
+                leave = leave.min(depth);
+            } else if speed < 0.0 {
+                enter = enter.max(depth);
+            } else if room < 0.0 {
+                return None;
+            }
+        }
+        if !(enter < leave && leave.is_finite()) {
+            return None;
+        }
+        let scalar_at = |depth: f64| {
+            let x = if is_perspective { DVec3::new(u, w, 1.0) * depth } else { DVec3::new(u, w, depth) };
+            let scalar = self.scalar_at_anchor + self.gradient.dot(x - self.anchor);
+            scalar.max(self.scalar_range[0]).min(self.scalar_range[1])
+        };
+        Some(Span { depth: [enter, leave], scalar: [scalar_at(enter), scalar_at(leave)] })
+    }
+}
+
+/// The pixels whose centers a cell may cover: first and last column, first and last row, both included.
+pub(crate) type PixelBox = [u32; 4];
+
+/// Where a cell can be seen, or `None` if it cannot. Conservative.
+///
+/// A cell that reaches the plane of the eye in a perspective view has no finite outline; it is bounded by the picture.
+pub(crate) fn pixel_box(corners: &[DVec3; 4], space: &PixelSpace) -> Option<PixelBox> {
+    let half = space.size.map(|n| f64::from(n) * 0.5);
+    if corners.iter().all(|p| p.z <= 0.0) {
+        return None;
+    }
+    let (mut low, mut high) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
+    if !space.is_perspective || corners.iter().all(|p| p.z > 0.0) {
+        for p in corners {
+            let [x, y] = if space.is_perspective { [p.x / p.z, p.y / p.z] } else { [p.x, p.y] };
+            low = [low[0].min(x), low[1].min(y)];
+            high = [high[0].max(x), high[1].max(y)];
+        }
+    } else {
+        if is_outside_rectangle(corners, [-half[0], half[0]], [-half[1], half[1]]) {
+            return None;
+        }
+        (low, high) = ([-half[0], -half[1]], half);
+    }
+    // Projection rounds by some 1e-13 pixels; a pixel too many costs nothing.
+    const MARGIN: f64 = 1e-6;
+    let range = |axis: usize| {
+        let first = (low[axis] + half[axis] - 0.5 - MARGIN).ceil().max(0.0);
+        let last = (high[axis] + half[axis] - 0.5 + MARGIN).floor().min(f64::from(space.size[axis]) - 1.0);
+        (first <= last).then_some([first as u32, last as u32])
+    };
+    let ([x0, x1], [y0, y1]) = (range(0)?, range(1)?);
+    Some([x0, x1, y0, y1])
+}
+
+/// Whether no ray through a rectangle of the picture can meet a cell (perspective); right for cells behind the eye too.
+pub(crate) fn is_outside_rectangle(corners: &[DVec3; 4], u: [f64; 2], w: [f64; 2]) -> bool {
+    corners.iter().all(|p| p.x < u[0] * p.z)
+        || corners.iter().all(|p| p.x > u[1] * p.z)
+        || corners.iter().all(|p| p.y < w[0] * p.z)
+        || corners.iter().all(|p| p.y > w[1] * p.z)
+}
+
+/// A tetrahedron's vertices by ascending index, and whether its volume is positive in that order.
+pub(crate) fn ascending(mut vertices: [u32; 4]) -> ([u32; 4], bool) {
+    let mut is_positive = true;
+    for end in (1..4).rev() {
+        for i in 0..end {
+            if vertices[i] > vertices[i + 1] {
+                vertices.swap(i, i + 1);
+                is_positive = !is_positive;
+            }
+        }
+    }
+    (vertices, is_positive)
+}
+
+#[cfg(test)]
+mod tests;

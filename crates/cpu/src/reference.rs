@@ -1,0 +1,166 @@
+//! The reference: every pixel's ray against every tetrahedron, in f64, sorted along the ray.
+//!
+//! Nothing is approximated but by rounding: segments come from clipping the ray against the four half-spaces of a cell,
+//! the integral along each is [`tetrascope_integrate::exact`], and the fragments of a pixel are sorted by where the ray
+//! enters, so that no order of whole cells is needed and cycles are drawn rightly. Cells that overlap in space are composed one
+//! after the other, as if the nearer one ended first.
+
+use rayon::prelude::*;
+use std::sync::atomic::{AtomicU64, Ordering};
+use tetrascope_integrate::{Integration, OpticalModel, RgbaAssoc, Segment, TransferFunction, average, exact};
+use tetrascope_mesh::TetMesh;
+use tetrascope_scene::{Plan, Progress, Stage};
+use tetrascope_view::LinearImage;
+
+use crate::error::{check_scalars, on_threads};
+use crate::geometry::{ClipCell, PixelBox, PixelSpace, ascending, is_outside_rectangle, pixel_box};
+use crate::grid::{Bins, Tile, TileGrid};
+use crate::rendered::Stopwatch;
+use crate::{Counts, RenderError, Rendered};
+
+/// Pixels a side of a tile: the fragments of all its pixels are in memory at once, 32 bytes each.
+const TILE_SIDE: u32 = 16;
+
+/// Draws a mesh as the plan says, in f64; the plan's order, back end and termination are ignored.
+///
+/// - `scalars`: one a point of the mesh
+///
+/// # Errors
+/// [`RenderError`] if `scalars` does not fit the mesh, holds a value that is not finite where a tetrahedron uses it, or if
+/// the plan's integration is one that is defined on a fan of triangles ([`Integration::Vertex`]) and has no meaning along a ray.
+pub fn render(
+    mesh: &TetMesh,
+    scalars: &[f64],
+    plan: &Plan,
+    progress: &dyn Progress,
+) -> Result<Rendered, RenderError> {
+    check_scalars(mesh, scalars)?;
+    let integrate: Integrate = match plan.integration {
+        Integration::Exact => exact,
+        Integration::Average => average,
+        Integration::Vertex => return Err(RenderError::IntegrationNeedsFan),
+    };
+    on_threads(plan.threads, || render_here(mesh, scalars, plan, integrate, progress))
+}
+
+type Integrate = fn(&TransferFunction, OpticalModel, &Segment) -> RgbaAssoc;
+
+/// A cell's segment of one ray; 32 bytes.
+#[derive(Clone, Copy, Debug)]
+struct Fragment {
+    depth: [f64; 2],
+    scalar: [f64; 2],
+}
+
+struct Job<'a> {
+    cells: Vec<[u32; 4]>,
+    points: Vec<glam::DVec3>,
+    scalars: &'a [f64],
+    space: PixelSpace,
+    grid: TileGrid,
+    bins: Bins,
+    /// For every entry of the bins the tetrahedron; only those that can be seen are there.
+    seen: Vec<(u32, PixelBox)>,
+}
+
+fn render_here(
+    mesh: &TetMesh,
+    scalars: &[f64],
+    plan: &Plan,
+    integrate: Integrate,
+    progress: &dyn Progress,
+) -> Rendered {
+    let mut watch = Stopwatch::start();
+    let frame = mesh.frame();
+    let space = PixelSpace::new(&plan.view.in_frame(frame.origin, frame.scale), frame.scale);
+    let points: Vec<_> = mesh.positions().par_iter().map(|&p| space.transform(p)).collect();
+    watch.lap(Stage::Transform);
+
+    let cells: Vec<[u32; 4]> = mesh.tetrahedra().iter().map(|t| t.map(|v| v.0)).collect();
+    let corners = |cell: usize| cells[cell].map(|v| points[v as usize]);
+    let seen: Vec<(u32, PixelBox)> = (0..cells.len())
+        .into_par_iter()
+        .filter_map(|cell| Some((cell as u32, pixel_box(&corners(cell), &space)?)))
+        .collect();
+    let grid = TileGrid::new(space.size, TILE_SIDE);
+    let may_show = |item: usize, tile: Tile| {
+        !space.is_perspective || {
+            let [u0, w0] = [PixelSpace::center(tile.x, space.size[0]), PixelSpace::center(tile.y, space.size[1])];
+            let [u1, w1] = [u0 + f64::from(tile.width - 1), w0 + f64::from(tile.height - 1)];
+            // Half a pixel of margin: rounding moves an outline by far less.
+            !is_outside_rectangle(&corners(seen[item].0 as usize), [u0 - 0.5, u1 + 0.5], [w0 - 0.5, w1 + 0.5])
+        }
+    };
+    let bins = grid.bin(seen.iter().map(|&(_, outline)| outline), may_show);
+    watch.lap(Stage::Bin);
+
+    let job = Job { scalars, space, grid, bins, cells, points, seen };
+    let fragments = AtomicU64::new(0);
+    let done = AtomicU64::new(0);
+    let total = grid.len() as u64;
+    let tiles: Vec<Vec<[f32; 4]>> = (0..grid.len())
+        .into_par_iter()
+        .map(|index| {
+            let pixels = job.draw_tile(index, plan, integrate, &fragments);
+            progress.report(Stage::Rasterize, done.fetch_add(1, Ordering::Relaxed) + 1, total);
+            pixels
+        })
+        .collect();
+
+    let mut image = LinearImage::transparent(space.size[0], space.size[1]);
+    for (index, pixels) in tiles.iter().enumerate() {
+        let tile = grid.tile(index);
+        for (row, line) in pixels.chunks_exact(tile.width as usize).enumerate() {
+            let start = (tile.y as usize + row) * space.size[0] as usize + tile.x as usize;
+            image.pixels_mut()[start..start + line.len()].copy_from_slice(line);
+        }
+    }
+    watch.lap(Stage::Rasterize);
+    let cells = job.cells.len() as u64;
+    let drawn = job.seen.len() as u64;
+    let fragments = fragments.into_inner();
+    let counts = Counts { cells, transparent: 0, outside: cells - drawn, drawn, careful: drawn, fragments };
+    Rendered { image, timings: watch.finish(), counts }
+}
+
+impl Job<'_> {
+    fn draw_tile(&self, index: usize, plan: &Plan, integrate: Integrate, count: &AtomicU64) -> Vec<[f32; 4]> {
+        let tile = self.grid.tile(index);
+        let mut pixels: Vec<Vec<Fragment>> = vec![Vec::new(); (tile.width * tile.height) as usize];
+        for &item in self.bins.of(index) {
+            let (cell, [x0, x1, y0, y1]) = self.seen[item as usize];
+            let (vertices, is_positive) = ascending(self.cells[cell as usize]);
+            let corners = vertices.map(|v| self.points[v as usize]);
+            let scalars = vertices.map(|v| self.scalars[v as usize]);
+            let Some(clip) = ClipCell::new(&corners, &scalars, is_positive) else { continue };
+            for y in y0.max(tile.y)..=y1.min(tile.y + tile.height - 1) {
+                let w = PixelSpace::center(y, self.space.size[1]);
+                for x in x0.max(tile.x)..=x1.min(tile.x + tile.width - 1) {
+                    let u = PixelSpace::center(x, self.space.size[0]);
+                    if let Some(span) = clip.span(self.space.is_perspective, u, w) {
+                        let pixel = (y - tile.y) * tile.width + x - tile.x;
+                        pixels[pixel as usize].push(Fragment { depth: span.depth, scalar: span.scalar });
+                    }
+                }
+            }
+        }
+        count.fetch_add(pixels.iter().map(|p| p.len() as u64).sum(), Ordering::Relaxed);
+        let compose = |(pixel, fragments): (usize, &mut Vec<Fragment>)| {
+            let (x, y) = (tile.x + pixel as u32 % tile.width, tile.y + pixel as u32 / tile.width);
+            let (u, w) = (PixelSpace::center(x, self.space.size[0]), PixelSpace::center(y, self.space.size[1]));
+            let stretch = self.space.ray_stretch(u, w);
+            fragments.sort_by(|a, b| a.depth[0].total_cmp(&b.depth[0]).then(a.depth[1].total_cmp(&b.depth[1])));
+            let composed = fragments.iter().fold(RgbaAssoc::TRANSPARENT, |front, fragment| {
+                let segment = Segment {
+                    scalar_front: fragment.scalar[0],
+                    scalar_back: fragment.scalar[1],
+                    chord_length: (fragment.depth[1] - fragment.depth[0]) * stretch,
+                };
+                front.over(integrate(&plan.transfer, plan.model, &segment))
+            });
+            let [r, g, b] = composed.rgb;
+            [r as f32, g as f32, b as f32, composed.opacity as f32]
+        };
+        pixels.iter_mut().enumerate().map(compose).collect()
+    }
+}

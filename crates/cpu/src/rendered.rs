@@ -1,0 +1,57 @@
+//! A picture, and what it took.
+
+use std::time::{Duration, Instant};
+
+use tetrascope_scene::Stage;
+use tetrascope_view::LinearImage;
+
+/// A picture, and what it took.
+#[derive(Clone, Debug)]
+pub struct Rendered {
+    /// The picture: linear, premultiplied, with no background.
+    pub image: LinearImage,
+    /// Wall time of each stage, in the order in which they ran.
+    pub timings: Vec<(Stage, Duration)>,
+    /// What was done.
+    pub counts: Counts,
+}
+
+/// What was done for a picture.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Counts {
+    /// Tetrahedra of the mesh.
+    pub cells: u64,
+    /// Of these, left out since the transfer function makes them invisible.
+    pub transparent: u64,
+    /// Of the visible ones, left out since they lie outside the picture or behind the eye.
+    pub outside: u64,
+    /// Tetrahedra that were set up and drawn.
+    pub drawn: u64,
+    /// Of these, drawn in f64 pixel by pixel: a face is seen nearly edge-on, or the cell reaches the plane of the eye.
+    pub careful: u64,
+    /// Pairs of a pixel and a tetrahedron whose chord was integrated.
+    pub fragments: u64,
+}
+
+/// Measures stages one after another.
+pub(crate) struct Stopwatch {
+    since: Instant,
+    timings: Vec<(Stage, Duration)>,
+}
+
+impl Stopwatch {
+    pub(crate) fn start() -> Self {
+        Self { since: Instant::now(), timings: Vec::new() }
+    }
+
+    /// Ends a stage that began when the last one ended.
+    pub(crate) fn lap(&mut self, stage: Stage) {
+        let now = Instant::now();
+        self.timings.push((stage, now - self.since));
+        self.since = now;
+    }
+
+    pub(crate) fn finish(self) -> Vec<(Stage, Duration)> {
+        self.timings
+    }
+}
