@@ -15,7 +15,7 @@ pub const FOV_Y_DEGREES: f64 = 30.0;
 pub const DIAGONAL_DEPTH: f64 = 8.0;
 
 /// Control points of the default color: a colormap in linear light needs more points than in sRGB to look the same between
-/// them. With 33 the largest difference from the map itself is below 1.5 of 255 in sRGB (test `viridis_is_close`).
+/// them. With 33 the largest difference from the map itself is below 3 of 255 in sRGB (test `viridis_is_close`).
 const COLOR_POINTS: u32 = 33;
 
 /// Where a camera stands and how it looks when a scene leaves it open.

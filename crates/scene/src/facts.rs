@@ -20,12 +20,8 @@ impl MeshFacts {
     /// The box holds every tetrahedron of `mesh`. Give the whole mesh, not only the part where a field is finite, so that
     /// the camera stays where it is when another field is shown.
     pub fn new(mesh: &TetMesh, scalar_range: (f64, f64)) -> Option<Self> {
-        let positions = mesh.positions();
-        let mut corners = mesh.tetrahedra().iter().flatten().map(|v| positions[v.index()]);
-        let first = corners.next()?;
-        let (lowest, highest) = corners.fold((first, first), |(low, high), p| (low.min(p), high.max(p)));
-        let frame = mesh.frame();
-        Some(Self { lowest: frame.to_world(lowest), highest: frame.to_world(highest), scalar_range })
+        let (lowest, highest) = mesh.bounds_world()?;
+        Some(Self { lowest, highest, scalar_range })
     }
 
     /// The middle of the box.
