@@ -1,0 +1,87 @@
+//! The reader of VTK's legacy files, versions 1.0 to 5.1, text and binary.
+//!
+//! Source: The VTK Textbook's chapter on file formats ("Simple Legacy Formats"), and for what it does not say (field
+//! arrays of text, `METADATA`, the cells of 5.1, percent-encoded names) the files that VTK itself writes.
+
+mod attributes;
+mod grid;
+mod lexer;
+
+#[cfg(test)]
+mod tests;
+
+use lexer::Lexer;
+
+use crate::{IoError, Loaded, MeshReader, Source};
+
+/// Reads `.vtk` files that hold an unstructured grid.
+pub(crate) struct LegacyVtk;
+
+const MAGIC: &[u8] = b"# vtk DataFile";
+
+impl MeshReader for LegacyVtk {
+    fn name(&self) -> &'static str {
+        "VTK legacy"
+    }
+
+    fn extensions(&self) -> &'static [&'static str] {
+        &["vtk"]
+    }
+
+    fn recognizes(&self, bytes: &[u8]) -> bool {
+        start_of(bytes).is_some()
+    }
+
+    fn read(&self, source: &Source) -> Result<Loaded, IoError> {
+        let Some(start) = start_of(&source.bytes) else {
+            return Err(source.invalid(
+                "line 1",
+                if source.bytes.is_empty() { "the file is empty" } else { "it does not start with \"# vtk DataFile\"" },
+                "name a legacy VTK file, or give the file the extension of its format",
+            ));
+        };
+        let mut lexer = Lexer::new(source, start);
+        let version = header(&mut lexer)?;
+        let loaded = grid::read(lexer)?;
+        let encoding = if loaded.is_binary { "binary" } else { "ASCII" };
+        Ok(Loaded {
+            dataset: loaded.dataset,
+            format: format!("VTK legacy {version}, {encoding}"),
+            warnings: loaded.warnings,
+        })
+    }
+}
+
+/// Where the file proper begins, behind a byte-order mark and blank lines.
+fn start_of(bytes: &[u8]) -> Option<usize> {
+    let rest = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes).trim_ascii_start();
+    let head = rest.get(..MAGIC.len())?;
+    head.eq_ignore_ascii_case(MAGIC).then(|| bytes.len() - rest.len())
+}
+
+/// Reads the four lines at the top, up to the kind of dataset, and gives the version.
+fn header(lexer: &mut Lexer<'_>) -> Result<String, IoError> {
+    let first = lexer.line();
+    let version = String::from_utf8_lossy(first).split_ascii_whitespace().last().unwrap_or_default().to_owned();
+    let version: String = version.chars().take(20).collect();
+    // The title may be anything, an empty line too.
+    lexer.line();
+    match lexer.keyword("ASCII or BINARY")?.as_str() {
+        "ASCII" => lexer.is_binary = false,
+        "BINARY" => lexer.is_binary = true,
+        other => return Err(lexer.invalid(format!("\"{other}\" stands where ASCII or BINARY belongs"))),
+    }
+    let word = lexer.keyword("DATASET")?;
+    if word != "DATASET" {
+        return Err(lexer.invalid(format!("\"{word}\" stands where DATASET belongs")));
+    }
+    let kind = lexer.keyword("the kind of dataset")?;
+    if kind != "UNSTRUCTURED_GRID" {
+        return Err(lexer.source.unsupported(
+            format!("a legacy VTK dataset of the kind {kind}"),
+            "convert it to an unstructured grid with ParaView (Append Datasets, then Save Data as .vtu)",
+        ));
+    }
+    lexer.line();
+    Ok(version)
+}
