@@ -5,11 +5,41 @@
 //! [`write_png`] and [`write_exr`] write to a temporary file beside the target and rename it, so that a failed run leaves
 //! no half-written picture.
 //!
-//! This crate and the command line are the only ones that open files; neither prints here.
+//! ```no_run
+//! use std::path::Path;
+//! use tetrascope_io::{read_mesh, write_image};
+//! use tetrascope_view::LinearImage;
+//!
+//! # fn main() -> Result<(), tetrascope_io::IoError> {
+//! let loaded = read_mesh(Path::new("bluntfinxyz.bin"), Some(Path::new("bluntfinq.bin")))?;
+//! assert_eq!(loaded.dataset.points.len(), 40_960);
+//! assert_eq!(loaded.dataset.point_arrays[0].name, "Density");
+//! for warning in &loaded.warnings {
+//!     eprintln!("{warning}");
+//! }
+//! write_image(Path::new("picture.exr"), &LinearImage::transparent(512, 512), [0.0; 3])?;
+//! # Ok(())
+//! # }
+//! ```
+//!
+//! This crate and the command line are the only ones that open files; neither prints here. Files are read whole into
+//! memory. Gmsh, Exodus and image-data formats are recognized and refused with a way to convert them.
 
+mod bytes;
 mod error;
+mod foreign;
+mod open;
+mod picture;
+mod plot3d;
 mod read;
 mod vtk;
 
 pub use error::IoError;
+pub use open::{read_mesh, readers};
+pub use picture::{read_exr, write_exr, write_image, write_png};
 pub use read::{Loaded, MeshReader, Source};
+
+#[cfg(test)]
+mod hostile_tests;
+#[cfg(test)]
+mod shared;

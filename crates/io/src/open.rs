@@ -1,0 +1,131 @@
+//! From a path to a dataset: reads the file and finds its reader.
+
+use std::path::Path;
+
+use crate::{IoError, Loaded, MeshReader, Source, foreign, plot3d::PLOT3D};
+
+/// All readers, in the order in which they are asked whether they recognize a file.
+///
+/// PLOT3D is last: its files begin with nothing that tells them apart, so that it judges by whether all sizes fit.
+pub fn readers() -> &'static [&'static dyn MeshReader] {
+    static READERS: [&dyn MeshReader; 1] = [&PLOT3D];
+    &READERS
+}
+
+/// Reads a mesh of any known format, found by its content first and by its extension where the content does not tell.
+///
+/// `solution` is a second file that belongs to the mesh: PLOT3D's q file. A file whose content is of another format than
+/// its extension says is read by its content, with a warning.
+///
+/// # Errors
+/// [`IoError::Read`] when the system does not give the file, [`IoError::Unsupported`] when no reader takes it (the message
+/// lists those there are), [`IoError::Invalid`] when it is broken.
+pub fn read_mesh(path: &Path, solution: Option<&Path>) -> Result<Loaded, IoError> {
+    let source = Source { path: path.to_owned(), bytes: read_whole(path)?, solution: solution.map(Path::to_owned) };
+    let extension = source.extension();
+    let expected = reader_of_extension(&extension);
+    let recognized = readers().iter().copied().find(|reader| reader.recognizes(&source.bytes));
+    let reader = match (recognized, expected) {
+        (Some(reader), _) => reader,
+        (None, expected) => match foreign::refuse_by_content(path, &source.bytes, readers()) {
+            Some(refusal) => return Err(refusal),
+            None => expected.ok_or_else(|| foreign::refuse_by_extension(path, readers()))?,
+        },
+    };
+
+    let mut loaded = reader.read(&source)?;
+    let named_otherwise =
+        expected.is_some_and(|other| other.name() != reader.name()) || foreign::is_foreign_extension(&extension);
+    // Extensions that two readers share say nothing against either.
+    if named_otherwise && !reader.extensions().contains(&extension.as_str()) {
+        loaded.warnings.push(format!(
+            "the file is named .{extension} but its content is {}; it was read by its content",
+            reader.name()
+        ));
+    }
+    if solution.is_some() && reader.name() != PLOT3D.name() {
+        loaded.warnings.push(format!(
+            "the solution file was not read: only PLOT3D keeps its arrays in a second file, and this is {}",
+            reader.name()
+        ));
+    }
+    Ok(loaded)
+}
+
+/// All bytes of a regular file that is not empty.
+pub(crate) fn read_whole(path: &Path) -> Result<Vec<u8>, IoError> {
+    let failed = |source| IoError::Read { path: path.to_owned(), source };
+    let metadata = std::fs::metadata(path).map_err(failed)?;
+    // A device or a pipe may never end.
+    if !metadata.is_file() {
+        return Err(IoError::Unsupported {
+            path: path.to_owned(),
+            what: if metadata.is_dir() { "reading a folder" } else { "reading a device or pipe" }.to_owned(),
+            remedy: "name a regular file".to_owned(),
+        });
+    }
+    let bytes = std::fs::read(path).map_err(failed)?;
+    if bytes.is_empty() {
+        return Err(IoError::Invalid {
+            path: path.to_owned(),
+            place: "the whole file".to_owned(),
+            problem: "it is empty (0 bytes)".to_owned(),
+            remedy: "write it again; the program that made it may have failed".to_owned(),
+        });
+    }
+    Ok(bytes)
+}
+
+fn reader_of_extension(extension: &str) -> Option<&'static dyn MeshReader> {
+    readers().iter().copied().find(|reader| reader.extensions().contains(&extension))
+}
+
+/// The file's name alone, for warnings.
+pub(crate) fn file_name(path: &Path) -> String {
+    path.file_name().unwrap_or(path.as_os_str()).to_string_lossy().into_owned()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::read::extension;
+
+    fn refusal(name: &str, bytes: &[u8]) -> String {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join(name);
+        std::fs::write(&path, bytes).unwrap();
+        let message = read_mesh(&path, None).unwrap_err().to_string();
+        assert!(message.contains(name), "{message}");
+        message
+    }
+
+    #[test]
+    fn extension_of_a_path() {
+        assert_eq!(extension(Path::new("a.b/Grid.XYZ")), "xyz");
+        assert_eq!(extension(Path::new("a.b/grid")), "");
+    }
+
+    #[test]
+    fn refusals_name_the_file_and_a_way_out() {
+        let png = refusal("picture.vtu", b"\x89PNG\r\n\x1a\n....");
+        assert!(png.contains("PNG picture") && png.contains("PLOT3D"), "{png}");
+        assert!(refusal("empty.vtu", b"").contains("empty (0 bytes)"));
+        let gmsh = refusal("block.msh", b"$MeshFormat\n4.1 0 8\n");
+        assert!(gmsh.contains("Gmsh is not supported") && gmsh.contains("meshio"), "{gmsh}");
+        assert!(refusal("can.whatever", b"CDF\x02....").contains("Exodus"));
+        assert!(refusal("volume.nhdr", b"NRRD0004\n").contains("NRRD"));
+        assert!(refusal("unrecognizable.vti", b"what is this").contains("VTI"));
+        assert!(refusal("notes.txt", b"nothing of the kind").contains(".msh"));
+        assert!(refusal("noextension", b"nothing of the kind").contains("no extension"));
+    }
+
+    #[test]
+    fn missing_files_and_folders() {
+        let folder = tempfile::tempdir().unwrap();
+        let missing = read_mesh(&folder.path().join("missing.vtu"), None).unwrap_err();
+        assert!(matches!(missing, IoError::Read { .. }), "{missing}");
+        assert!(missing.to_string().contains("missing.vtu"));
+        let is_folder = read_mesh(folder.path(), None).unwrap_err();
+        assert!(is_folder.to_string().contains("folder"), "{is_folder}");
+    }
+}
