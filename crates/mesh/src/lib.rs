@@ -7,17 +7,25 @@
 //!
 //! The crate knows no camera, no color and no file.
 
+mod adjacency;
+mod check;
 mod dataset;
 mod decompose;
 mod error;
 mod frame;
+mod gradient;
 mod ids;
 mod orientation;
+mod sample;
 mod tet_mesh;
 
+pub use adjacency::{CellFace, FaceAdjacency};
+pub use check::{MeshReport, check};
 pub use dataset::{ArrayValues, CellKind, Cells, DataArray, Dataset, StructuredBlock, UnstructuredCells};
 pub use decompose::{AddedPoint, Decomposition, DecompositionCounts, cell_data_to_points, decompose};
 pub use error::MeshError;
 pub use frame::Frame;
+pub use gradient::vertex_gradients;
 pub use ids::{CellId, FaceId, VertexId};
+pub use sample::rings_sample;
 pub use tet_mesh::TetMesh;
