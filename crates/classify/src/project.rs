@@ -11,8 +11,10 @@ use crate::volumes::SignedVolumes;
 ///
 /// All sums behind it run over terms of one sign, so that no class needs care and nothing cancels:
 /// with P and N as in [`Classified`], `S_P = Σ_P A`, `S_N = Σ_N −A`, the near end is `Σ_P A p / S_P`, the far end
-/// `Σ_N −A p / S_N`, and the scalars are the same means. A wrong sign of a tiny volume changes the length by at most
-/// 3 |A| / Σ|A| of itself.
+/// `Σ_N −A p / S_N`, and the scalars are the same means. So rounding may give a tiny volume the wrong
+/// sign, and with it the cell another class: the length changes by less than 3 |A| / Σ|A| of itself where the farthest
+/// corner is at most 1.3 times as far from the eye as the nearest, and by `|A| (1/S_N + (1 + |v|/|near|)/S_P)` anywhere (v: from
+/// the eye to the corner).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ThickVertex {
     /// The end towards the eye, in the space of the positions.
