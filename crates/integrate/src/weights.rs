@@ -41,7 +41,7 @@ use crate::special::{Scaled, dawson, erfcx};
 
 #[cfg(test)]
 #[path = "weights_tests.rs"]
-mod tests;
+pub(crate) mod tests;
 
 /// What the values at the two ends of a segment are multiplied by, and what is let through from behind.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]

@@ -152,14 +152,14 @@ const KNOWN: [[f64; 7]; 21] = [
 ];
 
 /// Largest error of a weight relative to the sum of both, and of the transmittance relative to 1.
-fn error(got: Weights<f64>, front: f64, back: f64, transmittance: f64) -> f64 {
+pub(crate) fn error(got: Weights<f64>, front: f64, back: f64, transmittance: f64) -> f64 {
     let sum = front + back;
     let weights = (got.front - front).abs().max((got.back - back).abs());
     let weights = if sum == 0.0 { weights } else { weights / sum };
     weights.max((got.transmittance - transmittance).abs())
 }
 
-fn widened(weights: Weights<f32>) -> Weights<f64> {
+pub(crate) fn widened(weights: Weights<f32>) -> Weights<f64> {
     Weights {
         front: f64::from(weights.front),
         back: f64::from(weights.back),

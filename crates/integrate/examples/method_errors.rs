@@ -1,0 +1,69 @@
+//! Prints the error table of the crate's README: each way to integrate against the exact one, for five transfer functions.
+//!
+//! `cargo run --release -p tetrascope-integrate --example method_errors`
+
+#![expect(clippy::print_stdout, reason = "printing is the purpose")]
+
+use tetrascope_integrate::{
+    OpticalModel, RgbaAssoc, Segment, TransferFunction, TransferFunctionError, average, exact, thick_vertex,
+};
+
+type Method = fn(&TransferFunction, OpticalModel, &Segment) -> RgbaAssoc;
+
+fn main() -> Result<(), TransferFunctionError> {
+    let functions = transfer_functions()?;
+    for (range, widest) in [("coarse cells", 1.0), ("fine cells", 0.05)] {
+        println!("{range}");
+        let methods: [(&str, Method); 2] = [("average", average), ("vertex", thick_vertex)];
+        for (name, method) in methods {
+            let errors = functions.iter().map(|(_, transfer)| {
+                let (largest, mean) = errors(transfer, method, widest);
+                format!("{largest:.2} / {mean:.4}")
+            });
+            println!("| `{name}` | {} |", errors.collect::<Vec<_>>().join(" | "));
+        }
+    }
+    Ok(())
+}
+
+/// Largest and mean error over the four channels, of segments with scalars at most `widest` apart and lengths from 1/1000
+/// to 1/2, evenly over their exponents.
+fn errors(transfer: &TransferFunction, method: Method, widest: f64) -> (f64, f64) {
+    const SEGMENTS: u32 = 40_000;
+    let (mut largest, mut sum) = (0.0f64, 0.0);
+    for i in 0..SEGMENTS {
+        // Multiples of powers of an irrational number fill the cube evenly (Roberts 2018).
+        let fraction = |step: f64| (0.5 + f64::from(i) * step).fract();
+        let [first, second, third] = [0.819_172_513, 0.671_043_607, 0.549_700_478].map(fraction);
+        let scalar_front = first;
+        let scalar_back = if widest < 1.0 { (first + widest * (2.0 * second - 1.0)).clamp(0.0, 1.0) } else { second };
+        let chord_length = 1e-3 * 500f64.powf(third);
+        let segment = Segment { scalar_front, scalar_back, chord_length };
+        let model = OpticalModel::DensityEmitter;
+        let (known, got) = (exact(transfer, model, &segment), method(transfer, model, &segment));
+        let light = known.rgb.iter().zip(got.rgb).map(|(known, got)| (known - got).abs());
+        let error = light.fold((known.opacity - got.opacity).abs(), f64::max);
+        largest = largest.max(error);
+        sum += error;
+    }
+    (largest, sum / f64::from(SEGMENTS))
+}
+
+fn transfer_functions() -> Result<Vec<(&'static str, TransferFunction)>, TransferFunctionError> {
+    let color = [[0.0, 0.1, 0.2, 0.9], [0.5, 0.9, 0.9, 0.8], [1.0, 0.9, 0.2, 0.1]];
+    let tent = |center: f64, half: f64, height: f64| [[center - half, 0.0], [center, height], [center + half, 0.0]];
+    let tents = [tent(0.2, 0.05, 50.0), tent(0.5, 0.05, 50.0), tent(0.8, 0.05, 50.0)].concat();
+    let edge = 1.0 / 256.0;
+    let noise = |i: u32| (f64::from(i) * 0.618_033_988_75).fract();
+    let table: Vec<_> = (0..256).map(|i| [f64::from(i) / 255.0, 10.0 * noise(i * i)]).collect();
+    [
+        ("ramp", vec![[0.0, 0.0], [1.0, 10.0]]),
+        ("tents", tents),
+        ("shell", tent(0.5, 1.0 / 128.0, 400.0).to_vec()),
+        ("box", vec![[0.3, 0.0], [0.3 + edge, 20.0], [0.7, 20.0], [0.7 + edge, 0.0]]),
+        ("table", table),
+    ]
+    .into_iter()
+    .map(|(name, extinction)| Ok((name, TransferFunction::new(&color, &extinction)?)))
+    .collect()
+}
