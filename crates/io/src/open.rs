@@ -2,13 +2,13 @@
 
 use std::path::Path;
 
-use crate::{IoError, Loaded, MeshReader, Source, foreign, plot3d::PLOT3D};
+use crate::{IoError, Loaded, MeshReader, Source, foreign, plot3d::PLOT3D, vtk};
 
 /// All readers, in the order in which they are asked whether they recognize a file.
 ///
 /// PLOT3D is last: its files begin with nothing that tells them apart, so that it judges by whether all sizes fit.
 pub fn readers() -> &'static [&'static dyn MeshReader] {
-    static READERS: [&dyn MeshReader; 1] = [&PLOT3D];
+    static READERS: [&dyn MeshReader; 3] = [&vtk::VTU, &vtk::LEGACY, &PLOT3D];
     &READERS
 }
 

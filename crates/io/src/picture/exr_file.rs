@@ -27,8 +27,7 @@ const PIXELS_ALWAYS_READ: u64 = 1 << 22;
 /// [`IoError::Write`] when the picture has no pixels or the file cannot be written; nothing is left of it then.
 pub fn write_exr(path: &Path, image: &LinearImage) -> Result<(), IoError> {
     refuse_empty(path, image)?;
-    let bytes =
-        encode(image).map_err(|error| IoError::Write { path: path.to_owned(), problem: error.to_string() })?;
+    let bytes = encode(image).map_err(|error| IoError::Write { path: path.to_owned(), problem: error.to_string() })?;
     write_whole(path, &bytes)
 }
 

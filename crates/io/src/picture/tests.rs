@@ -47,10 +47,7 @@ impl MetaDataOf {
         let meta = exr::prelude::MetaData::read_from_file(path, true).unwrap();
         let header = &meta.headers[0];
         let channels = header.channels.list.iter().map(|c| format!("{} {:?}", c.name, c.sample_type));
-        Self {
-            channels: channels.collect::<Vec<_>>().join(", "),
-            compression: format!("{:?}", header.compression),
-        }
+        Self { channels: channels.collect::<Vec<_>>().join(", "), compression: format!("{:?}", header.compression) }
     }
 }
 

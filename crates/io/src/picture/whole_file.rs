@@ -44,7 +44,11 @@ fn target_of(path: &Path) -> io::Result<PathBuf> {
         Ok(metadata) if metadata.is_file() => fs::canonicalize(path),
         Ok(_) => Err(io::Error::other("there is something that is not a regular file")),
         Err(error) if error.kind() == io::ErrorKind::NotFound => {
-            if path.file_name().is_none() { Err(error) } else { Ok(path.to_owned()) }
+            if path.file_name().is_none() {
+                Err(error)
+            } else {
+                Ok(path.to_owned())
+            }
         }
         Err(error) => Err(error),
     }
