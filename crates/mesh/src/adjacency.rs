@@ -20,7 +20,7 @@ pub struct CellFace {
 ///
 /// Two tetrahedra are neighbors where a face belongs to both and to no third. A face of one tetrahedron is on the
 /// boundary; a face of three or more is non-manifold and joins nothing. Memory: 16 bytes a tetrahedron; while it is
-/// built, 64 more.
+/// built, about 32 more.
 #[derive(Clone, Debug)]
 pub struct FaceAdjacency {
     neighbors: Vec<[u32; 4]>,
@@ -34,7 +34,7 @@ pub struct FaceAdjacency {
 const NON_MANIFOLD: u32 = u32::MAX - 1;
 
 /// A face on its way to its twin: three point indices, ascending, and cell * 4 + corner. Ordered by all of them.
-#[derive(Clone, Copy, Default, PartialEq, Eq, PartialOrd, Ord)]
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 struct Entry {
     middle_and_last: u64,
     first: u32,
@@ -42,6 +42,13 @@ struct Entry {
 }
 
 impl Entry {
+    #[inline]
+    fn new(cell_face: u32, tetrahedra: &[[VertexId; 4]]) -> Self {
+        let points = face_points(tetrahedra[(cell_face >> 2) as usize], (cell_face & 3) as u8);
+        let [first, middle, last] = ascending(points);
+        Self { middle_and_last: u64::from(middle) << 32 | u64::from(last), first, cell_face }
+    }
+
     fn key(&self) -> (u64, u32) {
         (self.middle_and_last, self.first)
     }
@@ -77,7 +84,7 @@ impl FaceAdjacency {
     /// Beyond 2³⁰ - 1 tetrahedra, more than [`decompose`](crate::decompose()) gives.
     pub fn new(tetrahedra: &[[VertexId; 4]]) -> Self {
         assert!(tetrahedra.len() <= MOST_TETRAHEDRA, "{} tetrahedra cannot be numbered", tetrahedra.len());
-        let (mut entries, starts) = buckets(tetrahedra);
+        let (cell_faces, starts) = buckets(tetrahedra);
         let neighbors: Vec<[AtomicU32; 4]> =
             tetrahedra.par_iter().map(|_| [const { AtomicU32::new(Self::NONE) }; 4]).collect();
 
@@ -85,12 +92,15 @@ impl FaceAdjacency {
         let link = |from: CellFace, to: u32| {
             neighbors[from.cell.index()][usize::from(from.corner)].store(to, Ordering::Relaxed)
         };
-        let oddities: Vec<Oddities> = tasks(&mut entries, &starts)
+        let oddities: Vec<Oddities> = tasks(&starts)
             .into_par_iter()
-            .map(|(entries, bounds)| {
+            .map(|bounds| {
                 let mut oddities = Oddities::default();
-                for bucket in bounds.windows(2) {
-                    let bucket = &mut entries[bucket[0] - bounds[0]..bucket[1] - bounds[0]];
+                let mut bucket = Vec::new();
+                for range in bounds.windows(2) {
+                    bucket.clear();
+                    let cell_faces = &cell_faces[range[0]..range[1]];
+                    bucket.extend(cell_faces.iter().map(|&cell_face| Entry::new(cell_face, tetrahedra)));
                     bucket.sort_unstable();
                     for group in bucket.chunk_by(|a, b| a.key() == b.key()) {
                         match group {
@@ -232,9 +242,9 @@ fn ascending([a, b, c]: [u32; 3]) -> [u32; 3] {
     [low.min(c), low.max(high.min(c)), high.max(c)]
 }
 
-/// All faces, dealt into buckets by the smallest point index, and where each bucket starts.
-fn buckets(tetrahedra: &[[VertexId; 4]]) -> (Vec<Entry>, Vec<usize>) {
-    let largest = tetrahedra.par_iter().flatten_iter().map(|v| v.0).max().unwrap_or(0);
+/// All faces as cell * 4 + corner, dealt into buckets by the smallest point index, and where each bucket starts.
+fn buckets(tetrahedra: &[[VertexId; 4]]) -> (Vec<u32>, Vec<usize>) {
+    let largest = tetrahedra.par_iter().map(|t| t[0].max(t[1]).max(t[2]).max(t[3]).0).max().unwrap_or(0);
     // As many buckets as faces at most: indices may be sparse, the memory may not follow them.
     let most = (4 * tetrahedra.len()).max(1) as u32;
     let mut shift = 0;
@@ -242,12 +252,17 @@ fn buckets(tetrahedra: &[[VertexId; 4]]) -> (Vec<Entry>, Vec<usize>) {
         shift += 1;
     }
     let bucket_count = (largest >> shift) as usize + 1;
-    let bucket_of = |first: u32| (first >> shift) as usize;
+    // The smallest point of the face opposite each corner: the smallest of all, but opposite that one the second.
+    let bucket_of = |tetrahedron: &[VertexId; 4]| {
+        let [a, b, c, d] = tetrahedron.map(|v| v.0);
+        let (ab, cd) = (a.min(b), c.min(d));
+        [b.min(cd), a.min(cd), ab.min(d), ab.min(c)].map(|first| (first >> shift) as usize)
+    };
 
     let mut starts = vec![0_usize; bucket_count + 1];
     for tetrahedron in tetrahedra {
-        for corner in 0..4 {
-            starts[bucket_of(ascending(face_points(*tetrahedron, corner))[0]) + 1] += 1;
+        for bucket in bucket_of(tetrahedron) {
+            starts[bucket + 1] += 1;
         }
     }
     let mut total = 0;
@@ -256,33 +271,24 @@ fn buckets(tetrahedra: &[[VertexId; 4]]) -> (Vec<Entry>, Vec<usize>) {
         *start = total;
     }
     let mut next = starts.clone();
-    let mut entries = vec![Entry::default(); 4 * tetrahedra.len()];
+    let mut cell_faces = vec![0; 4 * tetrahedra.len()];
     for (cell, tetrahedron) in tetrahedra.iter().enumerate() {
-        for corner in 0..4 {
-            let [first, middle, last] = ascending(face_points(*tetrahedron, corner));
-            let place = &mut next[bucket_of(first)];
-            entries[*place] = Entry {
-                middle_and_last: u64::from(middle) << 32 | u64::from(last),
-                first,
-                cell_face: (cell as u32) << 2 | u32::from(corner),
-            };
-            *place += 1;
+        for (corner, bucket) in bucket_of(tetrahedron).into_iter().enumerate() {
+            cell_faces[next[bucket]] = (cell as u32) << 2 | corner as u32;
+            next[bucket] += 1;
         }
     }
-    (entries, starts)
+    (cell_faces, starts)
 }
 
-/// Cuts the entries into runs of whole buckets, each with the bounds of its buckets.
-fn tasks<'a>(mut entries: &'a mut [Entry], starts: &'a [usize]) -> Vec<(&'a mut [Entry], &'a [usize])> {
+/// Cuts the buckets into runs of about [`ENTRIES_PER_TASK`] faces; each lists the bounds of its buckets.
+fn tasks(starts: &[usize]) -> Vec<&[usize]> {
     let mut tasks = Vec::new();
     let mut bucket = 0;
     while bucket + 1 < starts.len() {
-        let start = starts[bucket];
-        let past = starts.partition_point(|&s| s < start + ENTRIES_PER_TASK);
+        let past = starts.partition_point(|&start| start < starts[bucket] + ENTRIES_PER_TASK);
         let end = past.clamp(bucket + 1, starts.len() - 1);
-        let (run, rest) = entries.split_at_mut(starts[end] - start);
-        tasks.push((run, &starts[bucket..=end]));
-        entries = rest;
+        tasks.push(&starts[bucket..=end]);
         bucket = end;
     }
     tasks

@@ -5,6 +5,28 @@
 //! [`FaceAdjacency`] joins them face to face (it knows no positions), [`check`] says what is wrong with them, and
 //! [`vertex_gradients`] is computed only when something asks for it.
 //!
+//! Coordinates are f64 in a [`Frame`] of the mesh's own, so that neither a cube of a nanometer nor one at a northing of
+//! five million loses anything. Which way round a tetrahedron lies, and whether it has a volume at all, is decided
+//! exactly.
+//!
+//! ```
+//! use tetrascope_mesh::{CellId, FaceAdjacency, check, decompose, rings_sample, vertex_gradients};
+//!
+//! let dataset = rings_sample(8);
+//! let cut = decompose(&dataset)?;
+//! let scalars = cut.point_scalars(&dataset.point_arrays[0].component(0));
+//! let adjacency = FaceAdjacency::new(cut.mesh.tetrahedra());
+//! assert_eq!(cut.mesh.tetrahedra().len(), 5 * 8 * 8 * 8);
+//! assert!(adjacency.neighbor(CellId(0), 0).is_some());
+//! assert!(check(&cut, &adjacency).findings().is_empty());
+//! assert_eq!(vertex_gradients(&cut.mesh, &scalars).len(), dataset.points.len());
+//! # Ok::<(), tetrascope_mesh::MeshError>(())
+//! ```
+//!
+//! Limits: 2³² - 1 points and 2³⁰ - 1 tetrahedra. Points that coincide are not joined, and a mesh that overlaps itself
+//! is reported, not mended. Cells of higher than second order, and VTK's quadratic polygons and polyhedra, are counted
+//! and left out.
+//!
 //! The crate knows no camera, no color and no file.
 
 mod adjacency;
@@ -29,3 +51,7 @@ pub use gradient::vertex_gradients;
 pub use ids::{CellId, FaceId, VertexId};
 pub use sample::rings_sample;
 pub use tet_mesh::TetMesh;
+
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;

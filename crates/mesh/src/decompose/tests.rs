@@ -392,7 +392,7 @@ fn collapsed_line_leaves_out_exactly_the_flat_ones() {
     };
     for origin in [DVec3::ZERO, DVec3::new(1048576.0, -2097152.0, 4194304.0)] {
         let stored = |p: DVec3| (collapse(p).as_vec3() + origin.as_vec3()).as_dvec3();
-        let set = block([40, 5, 4], |p| stored(p));
+        let set = block([40, 5, 4], stored);
         let flat_exactly = decompose(&set).expect("good").counts;
         assert_eq!(flat_exactly.tetrahedra, 5 * 39 * 4 * 3);
         if origin == DVec3::ZERO {
