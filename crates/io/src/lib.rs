@@ -39,6 +39,11 @@ pub use open::{read_mesh, readers};
 pub use picture::{read_exr, write_exr, write_image, write_png};
 pub use read::{Loaded, MeshReader, Source};
 
+/// Compiles the example of the README.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;
+
 #[cfg(test)]
 mod hostile_tests;
 #[cfg(test)]

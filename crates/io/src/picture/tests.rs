@@ -156,3 +156,22 @@ fn permissions_are_those_of_a_new_file_and_links_are_followed() {
     assert!(fs::symlink_metadata(&link).unwrap().is_symlink());
     assert_eq!(fs::read(&link).unwrap(), fs::read(&picture).unwrap());
 }
+
+proptest::proptest! {
+    #[test]
+    fn exr_damaged_files_never_panic(
+        flips in proptest::collection::vec((proptest::prelude::any::<proptest::sample::Index>(), 0..=255_u8), 1..4),
+        reach in proptest::prelude::prop_oneof![proptest::prelude::Just(330_usize), proptest::prelude::Just(usize::MAX)],
+    ) {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("picture.exr");
+        write_exr(&path, &gradient(9, 20)).unwrap();
+        let mut bytes = fs::read(&path).unwrap();
+        let reach = reach.min(bytes.len());
+        for (at, byte) in flips {
+            bytes[at.index(reach)] = byte;
+        }
+        fs::write(&path, &bytes).unwrap();
+        let _ = read_exr(&path);
+    }
+}

@@ -74,12 +74,12 @@ pub(super) fn measure(content: &Content<'_>, layout: Layout) -> Result<Fit, Misf
     }
     // At most the number of integers in the file, by the check above.
     let declared = header.integers(count as usize * layout.axes).map_err(unreadable)?;
-    let declared: Vec<Vec<i64>> = declared.chunks_exact(layout.axes).map(<[i64]>::to_vec).collect();
-    if let Some(bad) = declared.iter().find(|dims| dims.iter().any(|&n| n < 1)) {
+    if let Some(bad) = declared.chunks_exact(layout.axes).find(|dims| dims.iter().any(|&n| n < 1)) {
         let largest = bad.iter().map(|n| n.unsigned_abs()).max().unwrap_or_default();
-        let problem = format!("the dimensions {} are not all positive", dims_text(std::slice::from_ref(bad)));
+        let problem = format!("the dimensions {} are not all positive", dims_text(&[bad.to_vec()]));
         return Err(misfit(Stage::Dimensions, largest as f64, problem));
     }
+    let declared: Vec<Vec<i64>> = declared.chunks_exact(layout.axes).map(<[i64]>::to_vec).collect();
 
     // Dimensions are below 2^31, so that products and sums are far below 2^128.
     let points = declared.iter().map(|dims| dims.iter().map(|&n| n as u128).product::<u128>());

@@ -109,6 +109,16 @@ fn big_endian_single(grid: &Written) -> Vec<u8> {
 }
 
 #[test]
+fn a_file_that_fits_two_layouts_is_refused() {
+    // One point with iblank, or a count of one grid of one point: 28 bytes either way.
+    let bytes = [1_i32, 1, 1, 1, 2, 2, 2].iter().flat_map(|i| i.to_le_bytes()).collect();
+    let message = PLOT3D.read(&source(bytes)).unwrap_err().to_string();
+    assert!(message.contains("several layouts"), "{message}");
+    assert!(message.contains("single-grid, with iblank of 1x1x1; or "), "{message}");
+    assert!(message.contains("multi-grid, no iblank of 1x1x1"), "{message}");
+}
+
+#[test]
 fn padding_is_not_taken_for_data() {
     // 27 points: with 484 zero bytes the same dimensions also fit with iblank, and with floats of twice the size.
     let mut bytes = big_endian_single(&written(&[3, 3, 3], 3, 1.0));
