@@ -57,3 +57,8 @@ pub use weights::Weights;
 
 #[cfg(test)]
 mod methods_tests;
+
+/// Compiles and runs the README's example.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;

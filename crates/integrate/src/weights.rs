@@ -30,8 +30,10 @@
 //!
 //! | function | promised | measured |
 //! | --- | --- | --- |
-//! | [`weights_f64`], [`emitter_weights_f64`] | 1e-12 | 4e-15 |
-//! | [`weights_f32`], [`emitter_weights_f32`] | 3e-7 | 2e-7 |
+//! | [`weights_f64`] | 1e-12 | 1.4e-16 against 150 digits, 1.5e-14 against quadrature |
+//! | [`emitter_weights_f64`] | 1e-12 | 3.2e-16 against 150 digits, 1.5e-14 against quadrature |
+//! | [`weights_f32`] | 3e-7 | 1.2e-7 |
+//! | [`emitter_weights_f32`] | 3e-7 | 8.9e-8 |
 //!
 //! Weights are never negative, and those of the density emitter never exceed 1. Infinite optical depth gives opacity 1
 //! with all weight on the front.

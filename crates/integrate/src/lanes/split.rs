@@ -128,6 +128,17 @@ struct Visible<S: Simd> {
     parts: u32,
 }
 
+/// The share of each segment at whose end the optical depth is [`VISIBLE_DEPTH`].
+#[inline(always)]
+fn visible_stretch<S: Simd>(simd: S, front: f32x8<S>, back: f32x8<S>) -> f32x8<S> {
+    // Solves `front u + slope u² / 2 = depth` by the form of the quadratic formula that does not cancel, everything
+    // divided by the larger end so that no square overflows.
+    let larger = front.max(back).max(1.0);
+    let [front, slope, depth] = [front / larger, (back - front) / larger, f32x8::splat(simd, VISIBLE_DEPTH) / larger];
+    let discriminant = (2.0 * slope).mul_add(depth, front * front).max(0.0);
+    (2.0 * depth) / (front + discriminant.sqrt())
+}
+
 impl<S: Simd> Visible<S> {
     #[inline(always)]
     fn new(simd: S, tau_front: f32x8<S>, tau_back: f32x8<S>) -> Self {
@@ -135,15 +146,12 @@ impl<S: Simd> Visible<S> {
         let limit = f32x8::splat(simd, 0.25 * f32::MAX);
         let (front, back) = (tau_front.min(limit), tau_back.min(limit));
         let slope = back - front;
-        // Solves `front u + slope u² / 2 = depth` by the form of the quadratic formula that does not cancel, everything
-        // divided by the larger end so that no square overflows.
-        let larger = front.max(back).max(1.0);
-        let [front_scaled, slope_scaled, depth_scaled] =
-            [front / larger, slope / larger, f32x8::splat(simd, VISIBLE_DEPTH) / larger];
-        let discriminant = (2.0 * slope_scaled).mul_add(depth_scaled, front_scaled * front_scaled).max(0.0);
-        let stretch = (2.0 * depth_scaled) / (front_scaled + discriminant.sqrt());
-        let is_cut = stretch.simd_lt(1.0);
-        let stretch = is_cut.select(stretch, f32x8::splat(simd, 1.0));
+        let optical_depth = 0.5 * front + 0.5 * back;
+        let is_deep = optical_depth.simd_gt(VISIBLE_DEPTH);
+        let whole = f32x8::splat(simd, 1.0);
+        let stretch = if is_deep.any_true() { visible_stretch(simd, front, back) } else { whole };
+        let is_cut = is_deep & stretch.simd_lt(whole);
+        let stretch = is_cut.select(stretch, whole);
 
         let first = front * stretch;
         let increase = slope * stretch * stretch;
@@ -158,7 +166,7 @@ impl<S: Simd> Visible<S> {
             }
             parts *= 2;
         }
-        Self { optical_depth: 0.5 * front + 0.5 * back, stretch, is_cut, first, increase, parts }
+        Self { optical_depth, stretch, is_cut, first, increase, parts }
     }
 
     /// Calls with the optical depths of each part's ends, the transmittance up to it, its position in the stretch and
