@@ -15,6 +15,8 @@ mod fuzz_tests;
 #[cfg(test)]
 mod hostile_tests;
 #[cfg(test)]
+mod shared_table;
+#[cfg(test)]
 mod shared_tests;
 #[cfg(test)]
 mod test_support;
