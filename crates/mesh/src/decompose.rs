@@ -12,6 +12,8 @@ mod survey;
 mod unstructured;
 
 #[cfg(test)]
+mod hostile_tests;
+#[cfg(test)]
 mod tests;
 
 pub use added::AddedPoint;

@@ -563,3 +563,24 @@ fn threads_do_not_matter() {
     assert_eq!(one.mesh.positions(), four.mesh.positions());
     assert_eq!(one.counts, four.counts);
 }
+
+#[test]
+fn blocks_follow_each_other() {
+    let (mut first, second) = (block([3, 2, 2], |p| p), block([2, 2, 3], |p| p + DVec3::new(9.0, 0.0, 0.0)));
+    let flat = StructuredBlock { dims: [5, 1, 2], first_point: 0, hidden_points: Vec::new() };
+    if let Cells::Structured(blocks) = &mut first.cells {
+        let mut hidden_points = vec![false; 12];
+        hidden_points[11] = true;
+        blocks.extend([flat, StructuredBlock { dims: [2, 2, 3], first_point: 12, hidden_points }]);
+    }
+    first.points.extend(second.points);
+    let cut = decompose(&first).expect("good");
+    // Cells 0 and 1, none of the flat block, and of the last two the one away from its hidden end.
+    let cells = |cell: u32| cut.mesh.source_cells().iter().filter(|&&c| c == cell).count();
+    assert_eq!([0, 1, 2, 3].map(cells), [5, 5, 5, 0]);
+    // Parity is counted within the block: its first cell has its central tetrahedron at its first point.
+    assert_eq!(cut.mesh.tetrahedra()[10].map(|v| v.0), [12, 15, 18, 17]);
+    let means = cell_data_to_points(&first, &[1.0, 2.0, 3.0, 4.0]);
+    assert_eq!((means[1], means[12], means[16]), (1.5, 3.0, 3.0));
+    assert!(means[23].is_nan());
+}
