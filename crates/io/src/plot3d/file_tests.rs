@@ -213,9 +213,14 @@ fn one_file_alone() {
     let grid = read_mesh(&folder.join("bluntfinxyz.bin"), None).unwrap();
     assert!(grid.dataset.point_arrays.is_empty());
     assert!(grid.warnings.len() == 1 && grid.warnings[0].contains("solution"), "{:?}", grid.warnings);
+    let grid = folder.join("bluntfinxyz.bin");
+    let twice = read_mesh(&grid, Some(&grid)).unwrap_err().to_string();
+    assert!(twice.contains("no layout of a PLOT3D solution"), "{twice}");
     for solution in ["bluntfinq.bin", "multi-ascii.q", "annulus_fortran_le_iblank.q"] {
         let error = read_mesh(&folder.join(solution), None).unwrap_err().to_string();
         assert!(error.contains(solution) && error.contains("name its grid"), "{error}");
+        let twice = read_mesh(&folder.join(solution), Some(&folder.join(solution))).unwrap_err().to_string();
+        assert_eq!(twice, error);
     }
 }
 

@@ -64,11 +64,7 @@ impl MeshReader for Plot3d {
 
         let Some(second_path) = &source.solution else {
             if main_is_solution {
-                return Err(source.invalid(
-                    "the whole file",
-                    "it is a PLOT3D solution (q file) and has no coordinates",
-                    "name its grid (xyz file) as the mesh and this file as the solution",
-                ));
+                return Err(no_coordinates(source));
             }
             let grid = grid.map_err(|no_fit| refusal(source, no_fit, Kind::Grid))?;
             let mut warnings =
@@ -82,7 +78,9 @@ impl MeshReader for Plot3d {
         let second_content = open(&second, allowed)?;
         let second_as_grid = if main_is_solution { detect(&second_content, Kind::Grid).ok() } else { None };
         let Some(second_as_grid) = second_as_grid else {
-            let grid = grid.map_err(|no_fit| refusal(source, no_fit, Kind::Grid))?;
+            let grid = grid.map_err(|no_fit| {
+                if main_is_solution { no_coordinates(source) } else { refusal(source, no_fit, Kind::Grid) }
+            })?;
             return join((source, &main, &grid), (&second, &second_content), Vec::new());
         };
         let swapped = format!(
@@ -216,6 +214,14 @@ fn open(source: &Source, allowed: usize) -> Result<Content<'_>, IoError> {
             "a PLOT3D text file holds numbers alone; correct the line, or name the file by its true format",
         )
     })
+}
+
+fn no_coordinates(source: &Source) -> IoError {
+    source.invalid(
+        "the whole file",
+        "it is a PLOT3D solution (q file) and has no coordinates",
+        "name its grid (xyz file) as the mesh and this file as the solution",
+    )
 }
 
 /// The file changed its mind between being measured and being read; cannot happen, but is no reason to panic.
