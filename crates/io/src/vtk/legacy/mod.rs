@@ -8,7 +8,7 @@ mod grid;
 mod lexer;
 
 #[cfg(test)]
-mod tests;
+pub(in crate::vtk) mod tests;
 
 use lexer::Lexer;
 

@@ -11,7 +11,7 @@ mod xml;
 mod xz;
 
 #[cfg(test)]
-mod tests;
+pub(in crate::vtk) mod tests;
 
 use crate::{IoError, Loaded, MeshReader, Source};
 
