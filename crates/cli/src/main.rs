@@ -1,2 +1,54 @@
-//! The program `tetrascope`.
-fn main() {}
+//! The program `tetrascope`: draws unstructured meshes as volumes.
+//!
+//! Reports go to standard output, warnings, errors and the progress bar to standard error. Exit codes: 0 good, 1 wrong input,
+//! 2 wrong usage.
+
+mod args;
+mod info;
+mod progress;
+mod render;
+mod report;
+mod sample;
+mod scene_paths;
+
+use std::process::ExitCode;
+
+use clap::Parser;
+
+use args::{Cli, Command};
+
+/// Why a command gave up.
+#[derive(Debug)]
+enum Failure {
+    /// The command line asks for what cannot be: exit code 2.
+    Usage(String),
+    /// A file or a scene is wrong: exit code 1.
+    Input(String),
+}
+
+impl From<tetrascope::Error> for Failure {
+    fn from(error: tetrascope::Error) -> Self {
+        Self::Input(error.to_string())
+    }
+}
+
+fn main() -> ExitCode {
+    // Prints by itself and exits with 2 for a wrong command line, with 0 for --help and --version.
+    let cli = Cli::parse();
+    let done = match &cli.command {
+        None => sample::run(),
+        Some(Command::Render(args)) => render::run(args),
+        Some(Command::Info(args)) => info::run(args),
+    };
+    match done {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(Failure::Usage(message)) => {
+            report::error(&format!("{message}\n\nFor more information, try 'tetrascope render --help'."));
+            ExitCode::from(2)
+        }
+        Err(Failure::Input(message)) => {
+            report::error(&message);
+            ExitCode::from(1)
+        }
+    }
+}

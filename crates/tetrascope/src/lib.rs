@@ -1,1 +1,53 @@
 //! Projected Tetrahedra volume rendering, from mesh file to picture.
+//!
+//! This crate joins the others and computes nothing itself. A [`Volume`] is a mesh that was read and cut into tetrahedra;
+//! [`Volume::field`] chooses the scalar to show; a [`SceneFile`] says how; its [`Plan`] says what will be computed and why;
+//! a back end draws it into a [`LinearImage`]. [`render_scene`] takes all these steps.
+//!
+//! ```
+//! use tetrascope::{SceneFile, Silent, render_scene};
+//!
+//! // A path such as "case.vtu" in place of the built-in sample draws a file.
+//! let mut scene = SceneFile::of_mesh(tetrascope::SAMPLE);
+//! (scene.image.width, scene.image.height) = (64, 64);
+//! let picture = render_scene(&scene, ".".as_ref(), &Silent)?;
+//! for decision in &picture.plan.decisions {
+//!     println!("{decision}");
+//! }
+//! picture.save(std::env::temp_dir().join("tetrascope-example.png"))?;
+//! # assert!(picture.image.pixel(32, 32)[3] > 0.1);
+//! # std::fs::remove_file(std::env::temp_dir().join("tetrascope-example.png"))?;
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+//!
+//! Every step is public: keep the [`Volume`] to draw other fields, and a [`CpuRenderer`] to draw one from many sides.
+//!
+//! Limits: the back ends are the CPU's; isosurfaces, surfaces and lighting are not there yet and refused by name.
+
+mod error;
+mod render;
+mod volume;
+
+pub use error::Error;
+pub use render::{Picture, is_blank, render_scene, render_volume};
+pub use volume::{SAMPLE, Volume, VolumeField, is_builtin, resolve_path};
+
+pub use tetrascope_cpu::{Counts, CpuRenderer, RenderError, Rendered, reference};
+pub use tetrascope_integrate::{Integration, OpticalModel, TransferFunction};
+pub use tetrascope_io::{IoError, Loaded, read_exr, read_mesh, readers, write_exr, write_image, write_png};
+pub use tetrascope_mesh::{
+    ArrayValues, CellKind, Cells, DataArray, Dataset, Decomposition, MeshError, StructuredBlock, TetMesh,
+    UnstructuredCells, decompose,
+};
+pub use tetrascope_order::OrderMethod;
+pub use tetrascope_scene::{
+    ArraySummary, Association, Backend, Choice, Completed, Decision, Field, FieldError, FieldOnMesh, MeshFacts, Plan,
+    Progress, ProjectionName, Scene, SceneError, SceneFile, SceneSyntaxError, Silent, Stage, explain_blank,
+    select_field, short, summarize_arrays,
+};
+pub use tetrascope_view::{Camera, LinearImage, Projection, View, ViewError};
+
+pub use {
+    tetrascope_classify as classify, tetrascope_cpu as cpu, tetrascope_integrate as integrate, tetrascope_io as io,
+    tetrascope_mesh as mesh, tetrascope_order as order, tetrascope_scene as scene, tetrascope_view as view,
+};

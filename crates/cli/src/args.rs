@@ -1,0 +1,233 @@
+//! What the command line may say.
+
+use std::path::PathBuf;
+
+use clap::{Args, Parser, Subcommand};
+use tetrascope::{Backend, Choice, Integration, OpticalModel, OrderMethod};
+
+/// Draws unstructured meshes as volumes.
+#[derive(Debug, Parser)]
+#[command(
+    name = "tetrascope",
+    version,
+    about = "Draws unstructured meshes as volumes, by projecting their tetrahedra.",
+    long_about = "Draws unstructured meshes as volumes, by projecting their tetrahedra.\n\n\
+                  Without a command it draws a small built-in sample to tetrascope.png.",
+    after_help = TOP_EXAMPLES,
+    args_conflicts_with_subcommands = true
+)]
+pub(crate) struct Cli {
+    #[command(subcommand)]
+    pub(crate) command: Option<Command>,
+}
+
+const TOP_EXAMPLES: &str = "\
+Examples:
+  tetrascope                               draw the built-in sample
+  tetrascope info case.vtu                 what is in a file
+  tetrascope render case.vtu               draw it, with defaults that fit any scale
+  tetrascope render scene.toml -o a.png    draw what a scene file says
+
+Exit codes: 0 good, 1 wrong input, 2 wrong usage.";
+
+#[derive(Debug, Subcommand)]
+pub(crate) enum Command {
+    /// Draw a mesh or a scene to a picture.
+    Render(Box<RenderArgs>),
+    /// Say what is in a mesh file and what is wrong with it.
+    Info(InfoArgs),
+}
+
+const RENDER_EXAMPLES: &str = "\
+Examples:
+  tetrascope render case.vtu -o case.png
+  tetrascope render case.vtu --field Velocity:mag --eye 3,-4,2 --up 0,0,1 --size 1280x720
+  tetrascope render grid.xyz solution.q --field Density -o density.png -o density.exr
+  tetrascope render case.vtu --color \"0:0,0,1; 0.5:1,1,1; 1:1,0,0\" --extinction \"0:0; 0.4:0; 0.5:9; 0.6:0\"
+  tetrascope render case.vtu --write-scene case.toml     keep all numbers, to be edited
+  tetrascope render case.toml                            the same picture again
+
+Control points are in the field's own units and in ascending order; between them color and extinction are linear. Two
+points at one scalar make a step. Extinction is per world unit of length: 1 takes away 63 % of the light behind within one unit.
+
+Exit codes: 0 good, 1 wrong input, 2 wrong usage. Pictures are written whole or not at all.";
+
+#[derive(Debug, Args)]
+#[command(after_help = RENDER_EXAMPLES)]
+pub(crate) struct RenderArgs {
+    /// A scene file (.toml, .json), a mesh file, or a PLOT3D grid and its solution; builtin:rings is a sample
+    #[arg(required = true, num_args = 1..=2, value_name = "INPUT")]
+    pub(crate) input: Vec<PathBuf>,
+    /// Picture to write: .png (8-bit sRGB over the background) or .exr (32-bit linear, premultiplied); may be repeated
+    /// [default: tetrascope.png]
+    #[arg(short, long = "output", value_name = "IMAGE")]
+    pub(crate) output: Vec<PathBuf>,
+    /// Array to show: a name, or NAME:0, NAME:x, NAME:mag of a vector [default: the first scalar point array]
+    #[arg(long, value_name = "NAME")]
+    pub(crate) field: Option<String>,
+
+    /// Where the eye is, world coordinates [default: looks along -z and sees everything]
+    #[arg(long, value_name = "X,Y,Z", value_parser = vector, allow_hyphen_values = true, help_heading = "Camera")]
+    pub(crate) eye: Option<[f64; 3]>,
+    /// What it looks at [default: the middle of the mesh]
+    #[arg(long, value_name = "X,Y,Z", value_parser = vector, allow_hyphen_values = true, help_heading = "Camera")]
+    pub(crate) target: Option<[f64; 3]>,
+    /// Which direction is up in the picture [default: 0,1,0]
+    #[arg(long, value_name = "X,Y,Z", value_parser = vector, allow_hyphen_values = true, help_heading = "Camera")]
+    pub(crate) up: Option<[f64; 3]>,
+    /// Perspective with this full vertical angle [default: 30]
+    #[arg(long, value_name = "DEGREES", help_heading = "Camera")]
+    pub(crate) fov: Option<f64>,
+    /// Parallel rays, with this full height of the view in world units
+    #[arg(long, value_name = "HEIGHT", conflicts_with = "fov", help_heading = "Camera")]
+    pub(crate) orthographic: Option<f64>,
+
+    /// Pixels: one side of a square, or WIDTHxHEIGHT [default: 512]
+    #[arg(long, value_name = "SIZE", value_parser = size, help_heading = "Picture")]
+    pub(crate) size: Option<(u32, u32)>,
+    /// Linear RGB behind the volume in a .png [default: 0,0,0]
+    #[arg(long, value_name = "R,G,B", value_parser = vector, help_heading = "Picture")]
+    pub(crate) background: Option<[f64; 3]>,
+    /// Optical model: density-emitter, emitter, absorption, emission
+    #[arg(long, value_name = "NAME", help_heading = "Picture")]
+    pub(crate) model: Option<OpticalModel>,
+    /// Color control points "scalar:r,g,b; ...", linear RGB [default: viridis over the field's range]
+    #[arg(long, value_name = "POINTS", value_parser = color_points, allow_hyphen_values = true, help_heading = "Picture")]
+    pub(crate) color: Option<Points<4>>,
+    /// Extinction control points "scalar:extinction; ..." [default: 0 to 8 over the mesh's diagonal]
+    #[arg(long, value_name = "POINTS", value_parser = extinction_points, allow_hyphen_values = true, help_heading = "Picture")]
+    pub(crate) extinction: Option<Points<2>>,
+
+    /// auto, or how a ray's way through a cell becomes a color: exact, average, vertex
+    #[arg(long, value_name = "NAME", help_heading = "Method")]
+    pub(crate) integration: Option<Choice<Integration>>,
+    /// auto, or in which order cells are blended: centroid, bucket, none
+    #[arg(long, value_name = "NAME", help_heading = "Method")]
+    pub(crate) order: Option<Choice<OrderMethod>>,
+    /// Number of slabs for --order bucket
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..), help_heading = "Method")]
+    pub(crate) slabs: Option<u32>,
+    /// The largest error wanted in a channel, 0 to 1; the methods of today are either exact or do not know their error
+    #[arg(long, value_name = "ERROR", help_heading = "Method")]
+    pub(crate) max_error: Option<f64>,
+    /// cpu, or reference (64-bit, every ray against every cell: slow)
+    #[arg(long, value_name = "NAME", help_heading = "Method")]
+    pub(crate) backend: Option<Backend>,
+    /// Number of threads [default: one a core]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..), help_heading = "Method")]
+    pub(crate) threads: Option<u16>,
+
+    /// Write a scene file (.toml, .json) with every default as a number
+    #[arg(long, value_name = "FILE", help_heading = "Report")]
+    pub(crate) write_scene: Option<PathBuf>,
+    /// Report on standard output as one JSON object
+    #[arg(long, help_heading = "Report")]
+    pub(crate) json: bool,
+    /// Report nothing but warnings and errors
+    #[arg(short, long, conflicts_with = "json", help_heading = "Report")]
+    pub(crate) quiet: bool,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct InfoArgs {
+    /// A mesh file, or a PLOT3D grid and its solution
+    #[arg(required = true, num_args = 1..=2, value_name = "FILE")]
+    pub(crate) input: Vec<PathBuf>,
+    /// Report on standard output as one JSON object
+    #[arg(long)]
+    pub(crate) json: bool,
+}
+
+/// Control points of `N` numbers each; a type of its own, as a bare `Vec` would be taken for a repeated option.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Points<const N: usize>(pub(crate) Vec<[f64; N]>);
+
+fn numbers<const N: usize>(text: &str) -> Result<[f64; N], String> {
+    let parts: Vec<&str> = text.split(',').map(str::trim).collect();
+    let mut out = [0.0_f64; N];
+    if parts.len() != N {
+        return Err(format!("\"{text}\" has {} numbers; give {N}, with commas between", parts.len()));
+    }
+    for (slot, part) in out.iter_mut().zip(parts) {
+        *slot = part.parse().map_err(|_| format!("\"{part}\" is not a number"))?;
+        if !slot.is_finite() {
+            return Err(format!("{slot} is not a finite number"));
+        }
+    }
+    Ok(out)
+}
+
+fn vector(text: &str) -> Result<[f64; 3], String> {
+    numbers(text)
+}
+
+fn size(text: &str) -> Result<(u32, u32), String> {
+    let side = |part: &str| part.trim().parse().map_err(|_| format!("\"{text}\" is no size; give 512 or 640x480"));
+    match text.split_once(['x', 'X', '×']) {
+        Some((width, height)) => Ok((side(width)?, side(height)?)),
+        None => side(text).map(|both| (both, both)),
+    }
+}
+
+fn points<const N: usize, const VALUES: usize>(text: &str) -> Result<Points<N>, String> {
+    let entries = text.split(';').map(str::trim).filter(|entry| !entry.is_empty());
+    let parsed: Result<Vec<_>, String> = entries
+        .map(|entry| {
+            let (scalar, values) =
+                entry.split_once(':').ok_or_else(|| format!("\"{entry}\" has no colon behind its scalar"))?;
+            let ([scalar], values) = (numbers::<1>(scalar)?, numbers::<VALUES>(values)?);
+            Ok(std::array::from_fn(|i| if i == 0 { scalar } else { values[i - 1] }))
+        })
+        .collect();
+    match parsed? {
+        list if list.is_empty() => Err("give at least one control point".to_owned()),
+        list => Ok(Points(list)),
+    }
+}
+
+fn color_points(text: &str) -> Result<Points<4>, String> {
+    points::<4, 3>(text)
+}
+
+fn extinction_points(text: &str) -> Result<Points<2>, String> {
+    points::<2, 1>(text)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_commands_are_consistent() {
+        use clap::CommandFactory;
+        Cli::command().debug_assert();
+    }
+
+    #[test]
+    fn control_points() {
+        let Points(color) = color_points("0: 0,0.5,1 ;-1e3:1,1,1;").unwrap();
+        assert_eq!(color, [[0.0, 0.0, 0.5, 1.0], [-1000.0, 1.0, 1.0, 1.0]]);
+        assert_eq!(extinction_points("2:3").unwrap().0, [[2.0, 3.0]]);
+        for wrong in ["", ";", "1", "1:2,3", "a:1", "1:nan", "1:2:3"] {
+            assert!(extinction_points(wrong).is_err(), "{wrong}");
+        }
+    }
+
+    #[test]
+    fn sizes() {
+        assert_eq!(size("512"), Ok((512, 512)));
+        assert_eq!(size("640x480"), Ok((640, 480)));
+        for wrong in ["", "x", "640x", "-5", "1.5", "640x480x3"] {
+            assert!(size(wrong).is_err(), "{wrong}");
+        }
+    }
+
+    #[test]
+    fn negative_numbers_are_values() {
+        let cli =
+            Cli::try_parse_from(["tetrascope", "render", "a.vtu", "--eye", "-1,-2,3", "--extinction", "-1:0;1:2"]);
+        let Some(Command::Render(args)) = cli.unwrap().command else { panic!("not render") };
+        assert_eq!(args.eye, Some([-1.0, -2.0, 3.0]));
+        assert_eq!(args.extinction, Some(Points(vec![[-1.0, 0.0], [1.0, 2.0]])));
+    }
+}

@@ -1,0 +1,197 @@
+//! `tetrascope render`: from inputs and options to pictures and a report.
+
+use std::path::{Path, PathBuf};
+use std::time::{Duration, Instant};
+
+use tetrascope::{
+    Completed, Plan, ProjectionName, Rendered, SceneFile, Volume, VolumeField, explain_blank, is_blank, resolve_path,
+    write_image,
+};
+
+use crate::Failure;
+use crate::args::RenderArgs;
+use crate::progress::Bar;
+use crate::report::Report;
+use crate::scene_paths::{self, folder_of, is_scene};
+
+/// Where a picture goes when nothing is said.
+pub(crate) const DEFAULT_OUTPUT: &str = "tetrascope.png";
+
+pub(crate) fn run(args: &RenderArgs) -> Result<(), Failure> {
+    let (mut scene, base_dir) = scene_of_inputs(&args.input)?;
+    override_by_options(&mut scene, args);
+    let default_output = [PathBuf::from(DEFAULT_OUTPUT)];
+    let outputs = if args.output.is_empty() { &default_output[..] } else { &args.output };
+    let job = Job {
+        scene,
+        base_dir,
+        outputs,
+        write_scene: args.write_scene.as_deref(),
+        threads: args.threads.map(usize::from),
+        quiet: args.quiet,
+        json: args.json,
+    };
+    job.run()
+}
+
+/// One picture to be made.
+#[derive(Debug)]
+pub(crate) struct Job<'a> {
+    /// With the options' overrides.
+    pub(crate) scene: SceneFile,
+    /// What the scene's paths are relative to.
+    pub(crate) base_dir: PathBuf,
+    pub(crate) outputs: &'a [PathBuf],
+    pub(crate) write_scene: Option<&'a Path>,
+    pub(crate) threads: Option<usize>,
+    pub(crate) quiet: bool,
+    pub(crate) json: bool,
+}
+
+impl Job<'_> {
+    /// Makes it, telling each step as soon as it is done.
+    pub(crate) fn run(&self) -> Result<(), Failure> {
+        // What can be wrong with the targets is said before minutes of work, not after.
+        self.outputs.iter().try_for_each(|path| check_target(path, &["png", "exr"], "pictures"))?;
+        self.write_scene.iter().try_for_each(|path| check_target(path, &["toml", "json"], "scenes"))?;
+        let start = Instant::now();
+        let bar = Bar::new(self.quiet);
+        let mut report = Report::new(self.quiet, self.json);
+        let done = self.make(&bar, &mut report);
+        bar.clear();
+        done?;
+        report.finish(start.elapsed());
+        Ok(())
+    }
+
+    fn make(&self, bar: &Bar, report: &mut Report) -> Result<(), Failure> {
+        bar.step("reading and cutting into tetrahedra");
+        let mesh = &self.scene.mesh;
+        let solution = mesh.solution.as_ref().map(|path| resolve_path(&self.base_dir, path));
+        let volume = Volume::load(&resolve_path(&self.base_dir, &mesh.path), solution.as_deref())?;
+        bar.clear();
+        report.volume(&volume);
+
+        let start = Instant::now();
+        let field = volume.field(mesh.field.as_deref())?;
+        report.field(&field, start.elapsed());
+
+        let (completed, plan) = self.decide(&field)?;
+        report.plan(&completed, &plan, self.threads);
+
+        let rendered = field.render(&plan, bar)?;
+        bar.clear();
+        report.rendered(&rendered);
+        if is_blank(&rendered.image) {
+            report.blank(&explain_blank(&plan, &field.facts));
+        }
+        let written_in = self.write(&completed, &plan, &rendered, report)?;
+        report.wrote_in(written_in);
+        Ok(())
+    }
+
+    fn decide(&self, field: &VolumeField<'_>) -> Result<(Completed, Plan), Failure> {
+        let wrong = |error| tetrascope::Error::Scene(error);
+        let mut completed = self.scene.complete(&field.facts).map_err(wrong)?;
+        completed.file.mesh.field = Some(field.field.name.clone());
+        completed.scene.threads = self.threads;
+        let mut plan = completed.scene.plan().map_err(wrong)?;
+        plan.decisions.clone_from(&completed.decisions);
+        Ok((completed, plan))
+    }
+
+    fn write(
+        &self,
+        completed: &Completed,
+        plan: &Plan,
+        rendered: &Rendered,
+        report: &mut Report,
+    ) -> Result<Duration, Failure> {
+        let start = Instant::now();
+        for path in self.outputs {
+            write_image(path, &rendered.image, plan.background).map_err(tetrascope::Error::Io)?;
+            report.wrote(path);
+        }
+        if let Some(path) = self.write_scene {
+            scene_paths::write(&completed.file, &self.base_dir, path)?;
+            report.wrote(path);
+        }
+        Ok(start.elapsed())
+    }
+}
+
+/// A scene file with its folder, or a scene of nothing but a mesh.
+fn scene_of_inputs(inputs: &[PathBuf]) -> Result<(SceneFile, PathBuf), Failure> {
+    match inputs {
+        [scene] if is_scene(scene) => Ok((scene_paths::read(scene)?, folder_of(scene).to_owned())),
+        [mesh] => Ok((SceneFile::of_mesh(mesh), PathBuf::from("."))),
+        [grid, solution] if !is_scene(grid) && !is_scene(solution) => {
+            let mut scene = SceneFile::of_mesh(grid);
+            scene.mesh.solution = Some(solution.clone());
+            Ok((scene, PathBuf::from(".")))
+        }
+        _ => Err(Failure::Usage(
+            "a scene file names its mesh itself: give one scene, one mesh, or a PLOT3D grid and its solution"
+                .to_owned(),
+        )),
+    }
+}
+
+fn override_by_options(scene: &mut SceneFile, args: &RenderArgs) {
+    fn set<T: Clone>(slot: &mut T, value: Option<&T>) {
+        if let Some(value) = value {
+            slot.clone_from(value);
+        }
+    }
+    fn set_some<T: Clone>(slot: &mut Option<T>, value: Option<&T>) {
+        if value.is_some() {
+            *slot = value.cloned();
+        }
+    }
+    set_some(&mut scene.mesh.field, args.field.as_ref());
+    let camera = &mut scene.camera;
+    set_some(&mut camera.eye, args.eye.as_ref());
+    set_some(&mut camera.target, args.target.as_ref());
+    set_some(&mut camera.up, args.up.as_ref());
+    if args.fov.is_some() {
+        (camera.projection, camera.fov_y, camera.height) = (ProjectionName::Perspective, args.fov, None);
+    }
+    if args.orthographic.is_some() {
+        (camera.projection, camera.fov_y, camera.height) = (ProjectionName::Orthographic, None, args.orthographic);
+    }
+    if let Some((width, height)) = args.size {
+        (scene.image.width, scene.image.height) = (width, height);
+    }
+    set(&mut scene.image.background, args.background.as_ref());
+    set(&mut scene.optics.model, args.model.as_ref());
+    set_some(&mut scene.transfer.color, args.color.as_ref().map(|points| &points.0));
+    set_some(&mut scene.transfer.extinction, args.extinction.as_ref().map(|points| &points.0));
+    let quality = &mut scene.quality;
+    set(&mut quality.integration, args.integration.as_ref());
+    if args.order.is_some() && args.slabs.is_none() {
+        // The slabs of the scene file belong to the order that is replaced.
+        quality.slabs = None;
+    }
+    set(&mut quality.order, args.order.as_ref());
+    set_some(&mut quality.slabs, args.slabs.as_ref());
+    set_some(&mut quality.max_error, args.max_error.as_ref());
+    set(&mut quality.backend, args.backend.as_ref());
+}
+
+/// Refuses a target of the wrong kind or in a folder that is not there.
+fn check_target(path: &Path, extensions: &[&str], kind: &str) -> Result<(), Failure> {
+    let extension = path.extension().map(|e| e.to_string_lossy().to_lowercase()).unwrap_or_default();
+    if !extensions.contains(&extension.as_str()) {
+        let known = extensions.iter().map(|e| format!(".{e}")).collect::<Vec<_>>().join(" and ");
+        return Err(Failure::Usage(format!("{}: {kind} are written as {known}, by extension", path.display())));
+    }
+    let folder = folder_of(path);
+    if !folder.is_dir() {
+        return Err(Failure::Input(format!(
+            "{}: there is no folder {}; make it first",
+            path.display(),
+            folder.display()
+        )));
+    }
+    Ok(())
+}

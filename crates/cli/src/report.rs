@@ -1,0 +1,203 @@
+//! What the program says: lines for people or one JSON object, and warnings on standard error.
+
+use std::path::Path;
+use std::time::Duration;
+
+use serde_json::{Map, Value, json};
+use tetrascope::{Completed, Plan, Projection, Rendered, Volume, VolumeField, short};
+
+/// Collects what was done; people read it line by line as it happens, machines at the end.
+#[derive(Debug)]
+pub(crate) struct Report {
+    quiet: bool,
+    json: bool,
+    object: Map<String, Value>,
+    warnings: Vec<String>,
+    written: Vec<String>,
+    timings: Vec<(String, Duration)>,
+}
+
+impl Report {
+    pub(crate) fn new(quiet: bool, json: bool) -> Self {
+        Self { quiet, json, object: Map::new(), warnings: Vec::new(), written: Vec::new(), timings: Vec::new() }
+    }
+
+    fn say(&self, subject: &str, text: &str) {
+        if !self.quiet && !self.json {
+            line(&format!("{subject:<12}{text}"));
+        }
+    }
+
+    fn put(&mut self, key: &str, value: Value) {
+        self.object.insert(key.to_owned(), value);
+    }
+
+    fn warn(&mut self, text: &str) {
+        warning(text);
+        self.warnings.push(text.to_owned());
+    }
+
+    pub(crate) fn volume(&mut self, volume: &Volume) {
+        let (points, cells) = (volume.dataset.points.len(), volume.decomposition.counts.cell_count());
+        let tetrahedra = volume.decomposition.mesh.tetrahedra().len();
+        self.say("mesh", &format!("{} ({})", volume.source_name, volume.format));
+        self.say("", &format!("{points} points, {cells} cells, {tetrahedra} tetrahedra"));
+        self.put(
+            "mesh",
+            json!({ "path": volume.source_name, "format": volume.format, "points": points, "cells": cells,
+                "tetrahedra": tetrahedra }),
+        );
+        self.timings.extend(volume.timings.iter().map(|(step, time)| ((*step).to_owned(), *time)));
+        for text in volume.warnings.iter().chain(&volume.decomposition.counts.findings()) {
+            self.warn(text);
+        }
+    }
+
+    pub(crate) fn field(&mut self, field: &VolumeField<'_>, time: Duration) {
+        let (low, high) = field.on_mesh.range;
+        self.say("field", &format!("{}, {} to {}", field.field.name, short(low), short(high)));
+        for note in &field.field.notes {
+            self.say("", note);
+        }
+        self.put(
+            "field",
+            json!({ "name": field.field.name, "association": field.field.association.to_string(),
+                "range": [low, high], "notes": field.field.notes,
+                "non_finite_points": field.on_mesh.non_finite_points, "left_out": field.on_mesh.left_out }),
+        );
+        self.timings.push(("field".to_owned(), time));
+        for text in field.field.warnings.iter().chain(&field.on_mesh.warning()) {
+            self.warn(text);
+        }
+    }
+
+    pub(crate) fn plan(&mut self, completed: &Completed, plan: &Plan, threads: Option<usize>) {
+        let camera = &completed.scene.camera;
+        let (eye, target) = (camera.eye, camera.target);
+        let place = |p: [f64; 3]| p.map(short).join(", ");
+        let projection = match camera.projection {
+            Projection::Perspective { fov_y } => format!("perspective, {} degrees", short(fov_y.to_degrees())),
+            Projection::Orthographic { height } => format!("orthographic, {} high", short(height)),
+        };
+        let (from, to) = (place(eye.to_array()), place(target.to_array()));
+        let chose_camera = plan.decisions.iter().any(|d| d.subject == "camera");
+        if !chose_camera {
+            self.say("camera", &format!("from ({from}) to ({to}), {projection}"));
+        }
+        self.say("model", &plan.model.to_string());
+        for decision in &plan.decisions {
+            let extra = if decision.subject == "camera" { format!(", {projection}") } else { String::new() };
+            self.say(decision.subject, &format!("{}{extra}: {}", decision.choice, decision.reason));
+        }
+        let max_error = completed.file.quality.max_error.unwrap_or_default();
+        let used = threads.unwrap_or_else(|| std::thread::available_parallelism().map_or(1, usize::from));
+        let plural = if used == 1 { "" } else { "s" };
+        self.say("backend", &format!("{}, {used} thread{plural}", plan.backend));
+        let decisions: Vec<Value> = plan
+            .decisions
+            .iter()
+            .map(|d| json!({ "subject": d.subject, "choice": d.choice, "reason": d.reason }))
+            .collect();
+        self.put("decisions", json!(decisions));
+        self.put("integration", json!(plan.integration.to_string()));
+        self.put("order", json!(plan.order.to_string()));
+        self.put("model", json!(plan.model.to_string()));
+        self.put("backend", json!(plan.backend.to_string()));
+        self.put("threads", json!(used));
+        self.put("max_error", json!(max_error));
+        self.put("image", json!({ "width": plan.view.width, "height": plan.view.height }));
+        self.put(
+            "camera",
+            json!({ "eye": eye.to_array(), "target": target.to_array(), "up": camera.up.to_array(),
+                "projection": projection }),
+        );
+        for text in &completed.warnings {
+            self.warn(text);
+        }
+    }
+
+    pub(crate) fn rendered(&mut self, rendered: &Rendered) {
+        let counts = &rendered.counts;
+        self.say(
+            "drawn",
+            &format!(
+                "{} of {} tetrahedra ({} invisible by the transfer function, {} out of view), {} fragments",
+                counts.drawn, counts.cells, counts.transparent, counts.outside, counts.fragments
+            ),
+        );
+        self.put(
+            "counts",
+            json!({ "cells": counts.cells, "drawn": counts.drawn, "transparent": counts.transparent,
+                "outside": counts.outside, "fragments": counts.fragments }),
+        );
+        self.timings.extend(rendered.timings.iter().map(|(stage, time)| (stage.to_string(), *time)));
+    }
+
+    /// The picture shows nothing, and why that may be.
+    pub(crate) fn blank(&mut self, reasons: &[String]) {
+        self.put("blank", json!(true));
+        let why = if reasons.is_empty() {
+            "no reason was found; compare the transfer function with the field's range and the camera with the mesh"
+                .to_owned()
+        } else {
+            reasons.join("; ")
+        };
+        self.warn(&format!("the picture is blank: {why}"));
+    }
+
+    pub(crate) fn wrote(&mut self, path: &Path) {
+        self.written.push(path.display().to_string());
+        self.say("wrote", &path.display().to_string());
+    }
+
+    pub(crate) fn wrote_in(&mut self, time: Duration) {
+        self.timings.push(("write".to_owned(), time));
+    }
+
+    /// Times, and for machines everything.
+    pub(crate) fn finish(mut self, total: Duration) {
+        let steps: Vec<String> = self.timings.iter().map(|(step, time)| format!("{step} {}", seconds(*time))).collect();
+        self.say("time", &format!("{}; {} in all", steps.join(", "), seconds(total)));
+        if self.json {
+            let steps: Map<String, Value> =
+                self.timings.iter().map(|(step, time)| (step.replace(' ', "_"), json!(time.as_secs_f64()))).collect();
+            self.put("timings_secs", Value::Object(steps));
+            self.put("total_secs", json!(total.as_secs_f64()));
+            let (written, warnings) = (std::mem::take(&mut self.written), std::mem::take(&mut self.warnings));
+            self.put("written", json!(written));
+            self.put("warnings", json!(warnings));
+            self.object.entry("blank").or_insert(json!(false));
+            object(&Value::Object(self.object));
+        }
+    }
+}
+
+fn seconds(time: Duration) -> String {
+    let seconds = time.as_secs_f64();
+    if seconds < 1.0 { format!("{:.1} ms", seconds * 1e3) } else { format!("{seconds:.2} s") }
+}
+
+/// A JSON object on standard output.
+pub(crate) fn object(value: &Value) {
+    line(&format!("{value:#}"));
+}
+
+/// A line on standard output. A reader that went away (`| head`) is no error.
+pub(crate) fn line(text: &str) {
+    use std::io::Write;
+    let _ = writeln!(std::io::stdout().lock(), "{text}");
+}
+
+pub(crate) fn warning(text: &str) {
+    to_stderr("warning", text);
+}
+
+pub(crate) fn error(text: &str) {
+    to_stderr("error", text);
+}
+
+fn to_stderr(kind: &str, text: &str) {
+    use std::io::Write;
+    // With standard error closed there is nowhere left to complain.
+    let _ = writeln!(std::io::stderr().lock(), "{kind}: {text}");
+}

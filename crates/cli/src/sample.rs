@@ -1,0 +1,29 @@
+//! `tetrascope` with no arguments: draws the built-in sample and says what to do next.
+
+use std::path::{Path, PathBuf};
+
+use tetrascope::SceneFile;
+
+use crate::Failure;
+use crate::render::{DEFAULT_OUTPUT, Job};
+use crate::report::line;
+
+/// The scene, as a user would write it; it is also what the second hint below shows.
+const SCENE: &str = include_str!("sample.toml");
+
+pub(crate) fn run() -> Result<(), Failure> {
+    line(
+        "Drawing the built-in sample: the distance from a sphere on a coarse mesh. Its opacity is 0 except in two small",
+    );
+    line("intervals of the scalar, far thinner than a cell: a test that sampling at vertices fails.\n");
+    let scene = SceneFile::parse(SCENE, Path::new("sample.toml")).map_err(|e| Failure::Input(e.to_string()))?;
+    let outputs = [PathBuf::from(DEFAULT_OUTPUT)];
+    let base_dir = PathBuf::from(".");
+    Job { scene, base_dir, outputs: &outputs, write_scene: None, threads: None, quiet: false, json: false }.run()?;
+    line("\nTry next:");
+    line("  tetrascope info FILE                                    what is in a mesh file");
+    line("  tetrascope render FILE                                  draw it with defaults that fit");
+    line("  tetrascope render builtin:rings --write-scene my.toml   a scene file to edit");
+    line("  tetrascope render --help                                everything else");
+    Ok(())
+}

@@ -1,0 +1,51 @@
+//! One error for the way from file to picture.
+
+use std::path::PathBuf;
+
+use tetrascope_cpu::RenderError;
+use tetrascope_io::IoError;
+use tetrascope_mesh::MeshError;
+use tetrascope_scene::{FieldError, SceneError, SceneSyntaxError, WriteSceneError};
+
+/// What went wrong, with the place and a remedy in the message.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum Error {
+    /// A file was not read or written. The message names it.
+    #[error(transparent)]
+    Io(#[from] IoError),
+    /// The file was read, but there is no mesh in it to draw.
+    #[error("{source_name}: {error}")]
+    Mesh {
+        /// The file, or what stands for it.
+        source_name: String,
+        /// What is wrong.
+        error: MeshError,
+    },
+    /// There is no such field, or nothing finite in it.
+    #[error("{source_name}: {error}")]
+    Field {
+        /// The file, or what stands for it.
+        source_name: String,
+        /// What is wrong.
+        error: FieldError,
+    },
+    /// The text of a scene file.
+    #[error(transparent)]
+    Syntax(#[from] SceneSyntaxError),
+    /// The values of a scene.
+    #[error("the scene: {0}")]
+    Scene(#[from] SceneError),
+    /// A scene that cannot be written as text.
+    #[error(transparent)]
+    WriteScene(#[from] WriteSceneError),
+    /// The back end gave no picture.
+    #[error("{0}")]
+    Render(#[from] RenderError),
+    /// A mesh that is built in goes by another name.
+    #[error("there is no built-in mesh \"{}\"; there is {}", name.display(), crate::SAMPLE)]
+    NoSuchSample {
+        /// The name asked for.
+        name: PathBuf,
+    },
+}

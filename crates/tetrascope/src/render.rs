@@ -1,0 +1,88 @@
+//! From a scene to a picture in one call.
+
+use std::path::Path;
+use std::time::Duration;
+
+use tetrascope_cpu::Counts;
+use tetrascope_io::write_image;
+use tetrascope_scene::{Plan, Progress, SceneFile, explain_blank};
+use tetrascope_view::LinearImage;
+
+use crate::{Error, Volume, resolve_path};
+
+/// A picture, and how it was made.
+#[derive(Clone, Debug)]
+pub struct Picture {
+    /// Linear, premultiplied, with no background.
+    pub image: LinearImage,
+    /// What was computed, with a reason for every choice.
+    pub plan: Plan,
+    /// The scene with every default as a number.
+    pub completed: SceneFile,
+    /// What the user should know; ends with the likely reasons if there is nothing to see.
+    pub warnings: Vec<String>,
+    /// Wall time of each step, in order.
+    pub timings: Vec<(String, Duration)>,
+    /// What the back end did.
+    pub counts: Counts,
+}
+
+impl Picture {
+    /// Writes the picture: `.png` over the scene's background, or `.exr` in linear floats.
+    ///
+    /// # Errors
+    /// [`Error::Io`] for another extension or if the file cannot be written; no part of it is left then.
+    pub fn save(&self, path: impl AsRef<Path>) -> Result<(), Error> {
+        Ok(write_image(path.as_ref(), &self.image, self.plan.background)?)
+    }
+}
+
+/// Reads the scene's mesh, fills what the scene leaves open, and draws it.
+///
+/// Paths in the scene are relative to `base_dir`, the folder of the scene file.
+///
+/// # Errors
+/// [`Error`], from whichever step failed.
+pub fn render_scene(scene: &SceneFile, base_dir: &Path, progress: &dyn Progress) -> Result<Picture, Error> {
+    let solution = scene.mesh.solution.as_ref().map(|path| resolve_path(base_dir, path));
+    let volume = Volume::load(&resolve_path(base_dir, &scene.mesh.path), solution.as_deref())?;
+    render_volume(&volume, scene, progress)
+}
+
+/// Draws a mesh that is in memory; the scene's `mesh.path` is not looked at.
+///
+/// # Errors
+/// [`Error`], from whichever step failed.
+pub fn render_volume(volume: &Volume, scene: &SceneFile, progress: &dyn Progress) -> Result<Picture, Error> {
+    let field = volume.field(scene.mesh.field.as_deref())?;
+    let mut completed = scene.complete(&field.facts)?;
+    completed.file.mesh.field = Some(field.field.name.clone());
+    let mut plan = completed.scene.plan()?;
+    plan.decisions = completed.decisions;
+    let rendered = field.render(&plan, progress)?;
+
+    let mut warnings = volume.warnings.clone();
+    warnings.extend(volume.decomposition.counts.findings());
+    warnings.extend(field.field.warnings.iter().cloned());
+    warnings.extend(field.on_mesh.warning());
+    warnings.extend(completed.warnings);
+    if is_blank(&rendered.image) {
+        warnings.push("the picture is blank".to_owned());
+        warnings.extend(explain_blank(&plan, &field.facts));
+    }
+    let steps = volume.timings.iter().map(|(step, time)| ((*step).to_owned(), *time));
+    let stages = rendered.timings.iter().map(|(stage, time)| (stage.to_string(), *time));
+    Ok(Picture {
+        image: rendered.image,
+        plan,
+        completed: completed.file,
+        warnings,
+        timings: steps.chain(stages).collect(),
+        counts: rendered.counts,
+    })
+}
+
+/// Whether no channel of any pixel reaches 1/255, alpha included.
+pub fn is_blank(image: &LinearImage) -> bool {
+    image.pixels().iter().flatten().all(|channel| channel.is_nan() || *channel < 1.0 / 255.0)
+}

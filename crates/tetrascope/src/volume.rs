@@ -1,0 +1,162 @@
+//! A mesh that was read and cut into tetrahedra, and a field on it.
+
+use std::path::{Path, PathBuf};
+use std::time::{Duration, Instant};
+
+use tetrascope_cpu::{CpuRenderer, Rendered, reference};
+use tetrascope_io::read_mesh;
+use tetrascope_mesh::{Dataset, Decomposition, decompose};
+use tetrascope_scene::{
+    ArraySummary, Backend, Field, FieldOnMesh, MeshFacts, Plan, Progress, Stage, place_on_mesh, select_field,
+    summarize_arrays,
+};
+
+use crate::Error;
+
+/// The path of the built-in sample: a name in place of a file, in scene files and on the command line.
+pub const SAMPLE: &str = "builtin:rings";
+
+/// Hexahedra along a side of the sample: coarse enough that its thin shells lie well inside cells.
+const SAMPLE_CELLS: usize = 16;
+
+/// A mesh with its arrays, cut into tetrahedra.
+#[derive(Clone, Debug)]
+pub struct Volume {
+    /// The file that it came from, for messages.
+    pub source_name: String,
+    /// The format, with what was found out about it.
+    pub format: String,
+    /// What the reader found odd and how it was treated.
+    pub warnings: Vec<String>,
+    /// Points, cells and arrays as the file has them.
+    pub dataset: Dataset,
+    /// The tetrahedra, and what was left out.
+    pub decomposition: Decomposition,
+    /// Wall time of reading and of cutting.
+    pub timings: [(&'static str, Duration); 2],
+}
+
+impl Volume {
+    /// Reads a mesh file and cuts its cells into tetrahedra. `solution` is PLOT3D's second file.
+    ///
+    /// The path [`SAMPLE`] stands for [`Volume::sample`].
+    ///
+    /// # Errors
+    /// [`Error::Io`] if the file is not read, [`Error::Mesh`] if nothing in it has a volume.
+    pub fn load(path: &Path, solution: Option<&Path>) -> Result<Self, Error> {
+        if is_builtin(path) {
+            return if path == Path::new(SAMPLE) {
+                Self::sample()
+            } else {
+                Err(Error::NoSuchSample { name: path.to_owned() })
+            };
+        }
+        let start = Instant::now();
+        let loaded = read_mesh(path, solution)?;
+        let read = start.elapsed();
+        let mut volume = Self::from_dataset(loaded.dataset, &path.display().to_string())?;
+        volume.format = loaded.format;
+        volume.warnings = loaded.warnings;
+        volume.timings[0].1 = read;
+        Ok(volume)
+    }
+
+    /// A mesh that the caller has made. `source_name` is what messages call it.
+    ///
+    /// # Errors
+    /// [`Error::Mesh`] if nothing in it has a volume.
+    pub fn from_dataset(dataset: Dataset, source_name: &str) -> Result<Self, Error> {
+        let start = Instant::now();
+        let decomposition =
+            decompose(&dataset).map_err(|error| Error::Mesh { source_name: source_name.to_owned(), error })?;
+        Ok(Self {
+            source_name: source_name.to_owned(),
+            format: "in memory".to_owned(),
+            warnings: Vec::new(),
+            dataset,
+            decomposition,
+            timings: [("read", Duration::ZERO), ("decompose", start.elapsed())],
+        })
+    }
+
+    /// The built-in sample: the distance from a sphere on a coarse mesh, after [Röttger 2000], Figure 3.
+    ///
+    /// # Errors
+    /// None in practice; the sample takes the way of every other mesh.
+    pub fn sample() -> Result<Self, Error> {
+        let start = Instant::now();
+        let dataset = tetrascope_mesh::rings_sample(SAMPLE_CELLS);
+        let made = start.elapsed();
+        let mut volume = Self::from_dataset(dataset, SAMPLE)?;
+        "built-in sample".clone_into(&mut volume.format);
+        volume.timings[0].1 = made;
+        Ok(volume)
+    }
+
+    /// All arrays with their ranges.
+    pub fn arrays(&self) -> Vec<ArraySummary> {
+        summarize_arrays(&self.dataset)
+    }
+
+    /// The field of this name, see [`select_field`]; without a name the first scalar.
+    ///
+    /// # Errors
+    /// [`Error::Field`] with all arrays if there is none of this name, or if it has no finite value.
+    pub fn field(&self, name: Option<&str>) -> Result<VolumeField<'_>, Error> {
+        let named = |error| Error::Field { source_name: self.source_name.clone(), error };
+        let field = select_field(&self.dataset, name).map_err(named)?;
+        let on_mesh = place_on_mesh(&field, &self.decomposition).map_err(named)?;
+        let facts = MeshFacts::new(&self.decomposition.mesh, on_mesh.range).ok_or_else(|| Error::Mesh {
+            source_name: self.source_name.clone(),
+            error: tetrascope_mesh::MeshError::NoCells { points: self.dataset.points.len() },
+        })?;
+        Ok(VolumeField { field, on_mesh, facts })
+    }
+}
+
+/// A scalar on the tetrahedra of a [`Volume`], ready to be drawn.
+#[derive(Clone, Debug)]
+pub struct VolumeField<'a> {
+    /// Name, origin, notes and warnings of the choice.
+    pub field: Field,
+    /// The tetrahedra on which it is finite.
+    pub on_mesh: FieldOnMesh<'a>,
+    /// What defaults are made from.
+    pub facts: MeshFacts,
+}
+
+impl VolumeField<'_> {
+    /// Draws the field as the plan says, with the back end that the plan names.
+    ///
+    /// The first of the timings is [`Stage::Prepare`] unless the back end prepares nothing. Who draws one field from many
+    /// sides keeps a [`CpuRenderer`] instead.
+    ///
+    /// # Errors
+    /// [`Error::Render`].
+    pub fn render(&self, plan: &Plan, progress: &dyn Progress) -> Result<Rendered, Error> {
+        let (mesh, scalars) = (self.on_mesh.mesh.as_ref(), self.on_mesh.scalars.as_slice());
+        match plan.backend {
+            Backend::Reference => Ok(reference::render(mesh, scalars, plan, progress)?),
+            Backend::Cpu => {
+                let start = Instant::now();
+                let renderer = CpuRenderer::new(mesh, scalars)?;
+                let prepared = start.elapsed();
+                let mut rendered = renderer.render(plan, progress)?;
+                if rendered.timings.iter().all(|(stage, _)| *stage != Stage::Prepare) {
+                    rendered.timings.insert(0, (Stage::Prepare, prepared));
+                }
+                Ok(rendered)
+            }
+        }
+    }
+}
+
+/// Where a path in a scene file leads: relative to the scene file's folder, unless it names a built-in mesh.
+pub fn resolve_path(base_dir: &Path, path: &Path) -> PathBuf {
+    if is_builtin(path) { path.to_owned() } else { base_dir.join(path) }
+}
+
+/// Whether a path names a mesh that is built in.
+pub fn is_builtin(path: &Path) -> bool {
+    path.to_str().is_some_and(|p| p.starts_with("builtin:"))
+}
