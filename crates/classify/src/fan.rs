@@ -3,7 +3,7 @@
 /// A vertex of a fan.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum FanVertex {
-    /// Where the chord is longest.
+    /// The center, where the ray meets both ends of the thickest chord.
     Thick,
     /// A corner of the cell, on the silhouette, where the chord has no length.
     Corner(usize),

@@ -7,14 +7,20 @@ use crate::class::{Classified, Corners, ProjectionClass, by_planes};
 use crate::fan::{Fan, FanVertex};
 use crate::volumes::SignedVolumes;
 
-/// The longest chord that rays of the view have in a cell, and the field at its ends.
+/// The chord at the thick vertex, where a cell's fan has its center, and the field at the chord's ends.
+///
+/// It is the longest of all chords in an orthographic view. In perspective it is the one with the largest difference of
+/// inverse depths, which is what falls linearly to zero at the silhouette; beside it, a cell that is large for its distance
+/// can have longer ones.
 ///
 /// All sums behind it run over terms of one sign, so that no class needs care and nothing cancels:
 /// with P and N as in [`Classified`], `S_P = Σ_P A`, `S_N = Σ_N −A`, the near end is `Σ_P A p / S_P`, the far end
-/// `Σ_N −A p / S_N`, and the scalars are the same means. So rounding may give a tiny volume the wrong
-/// sign, and with it the cell another class: the length changes by less than 3 |A| / Σ|A| of itself where the farthest
-/// corner is at most 1.3 times as far from the eye as the nearest, and by `|A| (1/S_N + (1 + |v|/|near|)/S_P)` anywhere (v: from
-/// the eye to the corner).
+/// `Σ_N −A p / S_N`, and the scalars are the same means.
+///
+/// Rounding may give a tiny volume A the wrong sign, and with it the cell another class, but no picture shows it: relative
+/// to itself, the length changes by less than 3 |A| / Σ|A| in orthographic views and from five longest edges away, and by
+/// about `|A| (1/S_N + (1 + |v|/|near|)/S_P)` at most from anywhere (v, near: from the eye to the corner and to the
+/// near end).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ThickVertex {
     /// The end towards the eye, in the space of the positions.
@@ -38,7 +44,7 @@ pub struct ThickVertex {
 pub struct Projected {
     /// What the silhouette looks like.
     pub class: ProjectionClass,
-    /// The longest chord; `None` for [`ProjectionClass::EyeInside`] and [`ProjectionClass::Degenerate`].
+    /// The chord at the center of the fan; `None` for [`ProjectionClass::EyeInside`] and [`ProjectionClass::Degenerate`].
     pub thick: Option<ThickVertex>,
     /// Triangles that cover the silhouette once; empty where there is no thick vertex.
     pub fan: Fan,
@@ -176,7 +182,7 @@ impl Projected {
     }
 }
 
-/// The longest chord of a cell for which both signs occur.
+/// The thick vertex of a cell for which both signs occur.
 fn thick_vertex(
     volumes: &SignedVolumes,
     classified: &Classified,
