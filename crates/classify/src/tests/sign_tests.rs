@@ -184,6 +184,24 @@ proptest! {
         }
     }
 
+    /// Coordinates of 38 bits, whose products do not fit a float: within the plane, and one unit beside it.
+    #[test]
+    fn exact_sign_of_long_products(
+        p in integer_point(1 << 38), u in integer_point(1 << 38), v in integer_point(1 << 38),
+        m in -3_i128..=3, n in -3_i128..=3, beside in integer_point(1),
+    ) {
+        let corners = [p, std::array::from_fn(|i| p[i] + u[i]), std::array::from_fn(|i| p[i] + v[i])];
+        for beside in [[0; 3], beside] {
+            let far: Integers = std::array::from_fn(|i| m * u[i] + n * v[i] + beside[i]);
+            let found = crate::exact_face_sign(corners.map(floats), Viewpoint::Direction(floats(far)));
+            prop_assert_eq!(found, sign(det(u, v, far)));
+            // The same direction as one from an eye.
+            let eye: Integers = std::array::from_fn(|i| p[i] - far[i]);
+            let found = crate::exact_face_sign(corners.map(floats), Viewpoint::Eye(floats(eye)));
+            prop_assert_eq!(found, sign(det(u, v, far)));
+        }
+    }
+
     /// Both cells of a face see the same magnitude, bit for bit, however they number their corners.
     #[test]
     fn neighbors_see_opposite_volumes(
