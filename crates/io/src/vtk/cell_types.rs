@@ -32,8 +32,8 @@ pub(super) fn kind_of(number: i64) -> Option<CellKind> {
         42 => CellKind::Polyhedron,
         // 0 to 9: empty, vertices, lines, triangles, polygons, pixel, quad. 21 to 23, 28, 30, 34 to 36: second-order
         // edge, triangle, quad, biquadratic quad, quadratic-linear quad, biquadratic triangle, cubic line, quadratic
-        // polygon. 51 to 56 parametric and 60 to 62, 66 higher-order, 68 to 70 Lagrange, 75 to 77 Bézier curves and faces.
-        0..=9 | 21..=23 | 28 | 30 | 34..=36 | 51..=56 | 60..=62 | 66 | 68..=70 | 75..=77 => CellKind::Flat,
+        // polygon. 51 to 54 parametric, 60 to 63 higher-order, 68 to 70 Lagrange, 75 to 77 Bézier curves and faces.
+        0..=9 | 21..=23 | 28 | 30 | 34..=36 | 51..=54 | 60..=63 | 68..=70 | 75..=77 => CellKind::Flat,
         other => CellKind::Other(other),
     })
 }
@@ -74,6 +74,8 @@ mod tests {
             (POLYHEDRON, CellKind::Polyhedron, None),
             (5, CellKind::Flat, None),
             (22, CellKind::Flat, None),
+            (70, CellKind::Flat, None),
+            (56, CellKind::Other(56), None),
             (71, CellKind::Other(71), None),
             (250, CellKind::Other(250), None),
         ] {

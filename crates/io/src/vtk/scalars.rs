@@ -95,7 +95,7 @@ impl ScalarType {
     }
 
     /// Numbers from bytes; what is left over behind the last whole number is not read.
-    pub(super) fn from_bytes(self, bytes: &[u8], order: ByteOrder) -> ArrayValues {
+    pub(super) fn decode_bytes(self, bytes: &[u8], order: ByteOrder) -> ArrayValues {
         for_type!(self, T => from_bytes::<T, { size_of::<T>() }>(bytes, order))
     }
 
@@ -103,9 +103,9 @@ impl ScalarType {
     ///
     /// # Errors
     /// [`BadWord`] at the first word that is no number of this type.
-    pub(super) fn from_words<'a>(
+    pub(super) fn parse_words(
         self,
-        words: &mut dyn Iterator<Item = &'a str>,
+        words: &mut dyn Iterator<Item = &str>,
         limit: usize,
     ) -> Result<ArrayValues, BadWord> {
         Ok(for_type!(self, T => from_words::<T>(words, limit)?))
@@ -172,7 +172,7 @@ fn from_bytes<T: Scalar<SIZE>, const SIZE: usize>(bytes: &[u8], order: ByteOrder
     }
 }
 
-fn from_words<'a, T: Word>(words: &mut dyn Iterator<Item = &'a str>, limit: usize) -> Result<Vec<T>, BadWord> {
+fn from_words<T: Word>(words: &mut dyn Iterator<Item = &str>, limit: usize) -> Result<Vec<T>, BadWord> {
     let mut values = Vec::new();
     while values.len() < limit {
         let Some(word) = words.next() else { break };
@@ -224,7 +224,7 @@ mod tests {
     use super::*;
 
     fn words(scalar: ScalarType, text: &str) -> Result<ArrayValues, BadWord> {
-        scalar.from_words(&mut text.split_ascii_whitespace(), usize::MAX)
+        scalar.parse_words(&mut text.split_ascii_whitespace(), usize::MAX)
     }
 
     #[test]
@@ -246,11 +246,11 @@ mod tests {
 
     #[test]
     fn bytes_in_either_order() {
-        let ArrayValues::I16(v) = ScalarType::I16.from_bytes(&[1, 0, 0xff, 0xff, 9], ByteOrder::Little) else {
+        let ArrayValues::I16(v) = ScalarType::I16.decode_bytes(&[1, 0, 0xff, 0xff, 9], ByteOrder::Little) else {
             panic!("not Int16")
         };
         assert_eq!(v, [1, -1]);
-        let ArrayValues::U32(v) = ScalarType::U32.from_bytes(&[0, 0, 1, 2], ByteOrder::Big) else {
+        let ArrayValues::U32(v) = ScalarType::U32.decode_bytes(&[0, 0, 1, 2], ByteOrder::Big) else {
             panic!("not UInt32")
         };
         assert_eq!(v, [258]);

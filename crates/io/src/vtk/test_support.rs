@@ -7,16 +7,9 @@ use tetrascope_mesh::{ArrayValues, CellKind, Cells, DataArray, Dataset, Unstruct
 use super::{LEGACY, VTU};
 use crate::{IoError, Loaded, MeshReader, Source};
 
-/// The shared folder. Without it a test is skipped aloud, or fails where the environment demands it.
-#[expect(clippy::print_stderr, reason = "a skipped test must be heard")]
+/// The folder of the shared data, or nothing where it is absent.
 pub(super) fn shared() -> Option<PathBuf> {
-    let folder = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../../../shared/data"));
-    if folder.is_dir() {
-        return Some(folder.to_path_buf());
-    }
-    assert!(std::env::var_os("TETRASCOPE_REQUIRE_SHARED").is_none(), "the shared data is required but absent");
-    eprintln!("SKIPPED: the shared data is absent");
-    None
+    crate::shared::shared("data")
 }
 
 /// Reads bytes as a file of this name, by its content or else its extension.

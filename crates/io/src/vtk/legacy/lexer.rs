@@ -127,7 +127,7 @@ impl<'a> Lexer<'a> {
                 LegacyType::Id => ScalarType::I64,
                 LegacyType::Plain(scalar) => scalar,
             };
-            let values = scalar.from_words(&mut std::iter::from_fn(|| self.word()), count).map_err(|bad| {
+            let values = scalar.parse_words(&mut std::iter::from_fn(|| self.word()), count).map_err(|bad| {
                 self.invalid(format!(
                     "value {} of {what} is \"{}\", which is no number of its type",
                     bad.index, bad.word
@@ -152,7 +152,7 @@ impl<'a> Lexer<'a> {
             }
             LegacyType::Plain(scalar) => {
                 let bytes = self.block(count.checked_mul(scalar.size()), what)?;
-                Ok(scalar.from_bytes(bytes, ByteOrder::Big))
+                Ok(scalar.decode_bytes(bytes, ByteOrder::Big))
             }
         }
     }

@@ -58,14 +58,14 @@ pub(super) fn decode(
     let bytes = match array.format.as_str() {
         "ascii" => {
             let mut words = array.text.iter().flat_map(|text| text.split_ascii_whitespace());
-            return scalar.from_words(&mut words, usize::MAX).map_err(|bad| {
+            return scalar.parse_words(&mut words, usize::MAX).map_err(|bad| {
                 invalid(format!("value {} is \"{}\", which is no {}", bad.index, bad.word, array.type_name))
             });
         }
         "binary" => {
             let text: String = array.text.iter().flat_map(|text| text.split_ascii_whitespace()).collect();
             if text.is_empty() {
-                return Ok(scalar.from_bytes(&[], file.byte_order));
+                return Ok(scalar.decode_bytes(&[], file.byte_order));
             }
             read_bytes(Encoded::Base64(text.as_bytes()), file).map(Cow::into_owned).map_err(invalid)?
         }
@@ -101,10 +101,10 @@ pub(super) fn place(source: &Source, array: &ArrayElement<'_>, label: &str) -> S
 }
 
 fn whole_numbers(bytes: &[u8], scalar: ScalarType, order: ByteOrder) -> Result<ArrayValues, String> {
-    if bytes.len() % scalar.size() != 0 {
+    if !bytes.len().is_multiple_of(scalar.size()) {
         return Err(format!("it has {} bytes, which is no multiple of the {} of a value", bytes.len(), scalar.size()));
     }
-    Ok(scalar.from_bytes(bytes, order))
+    Ok(scalar.decode_bytes(bytes, order))
 }
 
 /// Bytes still in their encoding; what was taken is gone.

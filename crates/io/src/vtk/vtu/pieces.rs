@@ -42,9 +42,9 @@ fn describe(file: &VtuFile<'_>) -> String {
         ByteOrder::Little => "little-endian",
         ByteOrder::Big => "big-endian",
     };
-    let formats = file.pieces.iter().flat_map(|piece| &piece.points).map(|array| array.format.as_str());
+    let mut formats = file.pieces.iter().flat_map(|piece| &piece.points).map(|array| array.format.as_str());
     let mut text = format!("VTK XML unstructured grid {}", file.version);
-    match (formats.last(), file.appended) {
+    match (formats.next_back(), file.appended) {
         (Some("ascii") | None, _) => return text + ", ASCII",
         (Some("appended"), Some(Appended::Raw(_))) => text += ", appended raw",
         (Some("appended"), _) => text += ", appended base64",

@@ -163,14 +163,12 @@ pub(super) fn parse(source: &Source) -> Result<VtuFile<'_>, IoError> {
                     array.text.push(text.into_inner());
                 }
             }
-            Event::GeneralRef(entity) => {
-                if current_array(&mut file, &open).is_some() {
-                    return Err(source.invalid(
-                        line(bytes, start),
-                        format!("the entity `&{};` stands among numbers; entities are not expanded", shorten(&entity)),
-                        "write the numbers themselves",
-                    ));
-                }
+            Event::GeneralRef(entity) if current_array(&mut file, &open).is_some() => {
+                return Err(source.invalid(
+                    line(bytes, start),
+                    format!("the entity `&{};` stands among numbers; entities are not expanded", shorten(&entity)),
+                    "write the numbers themselves",
+                ));
             }
             Event::Eof => {
                 if !root_seen {
