@@ -1,1 +1,6 @@
-//! Tests that cross crates.
+//! What the tests that cross crates share: random meshes, another way to know a chord, and the distance of two pictures.
+
+pub mod chords;
+pub mod compare;
+pub mod meshes;
+pub mod shared;

@@ -23,7 +23,9 @@ pub enum RenderError {
         value: f64,
     },
     /// The integration is defined on a fan of triangles, which the reference does not have.
-    #[error("the reference clips rays and has no fan of triangles, on which \"vertex\" is defined; use \"exact\", or the back end \"cpu\"")]
+    #[error(
+        "the reference clips rays and has no fan of triangles, on which \"vertex\" is defined; use \"exact\", or the back end \"cpu\""
+    )]
     IntegrationNeedsFan,
     /// The operating system gave no threads.
     #[error("{threads} threads could not be started: {problem}; ask for fewer")]

@@ -48,12 +48,12 @@
 //! reference keeps all fragments of a tile in memory.
 
 mod error;
-//mod fast;
+mod fast;
 mod geometry;
 mod grid;
 pub mod reference;
 mod rendered;
 
 pub use error::RenderError;
-//pub use fast::CpuRenderer;
+pub use fast::CpuRenderer;
 pub use rendered::{Counts, Rendered};

@@ -28,12 +28,7 @@ const TILE_SIDE: u32 = 16;
 /// # Errors
 /// [`RenderError`] if `scalars` does not fit the mesh, holds a value that is not finite where a tetrahedron uses it, or if
 /// the plan's integration is one that is defined on a fan of triangles ([`Integration::Vertex`]) and has no meaning along a ray.
-pub fn render(
-    mesh: &TetMesh,
-    scalars: &[f64],
-    plan: &Plan,
-    progress: &dyn Progress,
-) -> Result<Rendered, RenderError> {
+pub fn render(mesh: &TetMesh, scalars: &[f64], plan: &Plan, progress: &dyn Progress) -> Result<Rendered, RenderError> {
     check_scalars(mesh, scalars)?;
     let integrate: Integrate = match plan.integration {
         Integration::Exact => exact,

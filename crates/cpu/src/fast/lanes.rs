@@ -27,6 +27,10 @@ pub(crate) struct Sample<S: Simd> {
     pub(crate) back: f32x8<S>,
     /// Chord length in the cell's unit, but for the stretch of the ray: multiply by that.
     pub(crate) length: f32x8<S>,
+    /// Difference of nearness between the two ends, relative to the record's reference depth: what is linear on the screen.
+    pub(crate) nearness: f32x8<S>,
+    /// Columns and rows of the lanes, counted from the record's reference pixel.
+    pub(crate) place: [f32x8<S>; 2],
     /// Which lanes the cell covers.
     pub(crate) covered: mask32x8<S>,
 }
@@ -37,13 +41,14 @@ pub(crate) struct PlaneRow<'a, S: Simd> {
     /// Values at column offset 0.
     planes: [f32x8<S>; 4],
     scalar: f32x8<S>,
+    row: f32x8<S>,
 }
 
 impl<'a, S: Simd> PlaneRow<'a, S> {
     /// The planes over the blocks whose upper row is `y`.
     #[inline(always)]
     pub(crate) fn new(simd: S, record: &'a CellRecord, y: u32) -> Self {
-        let row = f32x8::from_slice(simd, &LANE_ROW) + (y as i32 - i32::from(record.pixel[1])) as f32;
+        let row = rows(simd, record, y);
         let at_row = |plane: &[f32; 3]| f32x8::splat(simd, plane[2]).mul_add(row, f32x8::splat(simd, plane[0]));
         let planes = [
             at_row(&record.planes[0]),
@@ -51,14 +56,14 @@ impl<'a, S: Simd> PlaneRow<'a, S> {
             at_row(&record.planes[2]),
             at_row(&record.planes[3]),
         ];
-        Self { record, planes, scalar: f32x8::splat(simd, record.scalar[1]) * row }
+        Self { record, planes, scalar: f32x8::splat(simd, record.scalar[1]) * row, row }
     }
 
     /// What the cell has in the block whose left column is `x`, or `None` if nothing.
     #[inline(always)]
     pub(crate) fn sample<const PERSPECTIVE: bool>(&self, simd: S, x: u32) -> Option<Sample<S>> {
         let record = self.record;
-        let column = f32x8::from_slice(simd, &LANE_COLUMN) + (x as i32 - i32::from(record.pixel[0])) as f32;
+        let column = columns(simd, record, x);
         let plane = |m: usize| f32x8::splat(simd, record.planes[m][1]).mul_add(column, self.planes[m]);
         let (p, q, r, s) = (plane(0), plane(1), plane(2), plane(3));
         let (entry, exit) = match record.entry_count {
@@ -89,8 +94,21 @@ impl<'a, S: Simd> PlaneRow<'a, S> {
         } else {
             (front, back, entry - exit)
         };
-        Some(Sample { front: front.max(low).min(high), back: back.max(low).min(high), length, covered })
+        let (front, back) = (front.max(low).min(high), back.max(low).min(high));
+        Some(Sample { front, back, length, nearness: entry - exit, place: [column, self.row], covered })
     }
+}
+
+/// Columns of the lanes of a block whose left column is `x`, counted from the record's reference pixel.
+#[inline(always)]
+fn columns<S: Simd>(simd: S, record: &CellRecord, x: u32) -> f32x8<S> {
+    f32x8::from_slice(simd, &LANE_COLUMN) + (x as i32 - i32::from(record.pixel[0])) as f32
+}
+
+/// Rows of the lanes of a block whose upper row is `y`, likewise.
+#[inline(always)]
+fn rows<S: Simd>(simd: S, record: &CellRecord, y: u32) -> f32x8<S> {
+    f32x8::from_slice(simd, &LANE_ROW) + (y as i32 - i32::from(record.pixel[1])) as f32
 }
 
 /// What a cell has in the block at `(x, y)`, in f64 and pixel by pixel.
@@ -102,8 +120,8 @@ pub(crate) fn careful_lanes(
     reference: f64,
     space: &PixelSpace,
     [x, y]: [u32; 2],
-) -> Option<[[f32; LANES]; 3]> {
-    let mut lanes = [[0.0; LANES]; 3];
+) -> Option<[[f32; LANES]; 4]> {
+    let mut lanes = [[0.0; LANES]; 4];
     let mut any = false;
     for lane in 0..LANES {
         let (column, row) = (x + lane as u32 % BLOCK_WIDTH, y + lane as u32 / BLOCK_WIDTH);
@@ -111,7 +129,10 @@ pub(crate) fn careful_lanes(
         if let Some(span) = cell.clip.span(space.is_perspective, u, w) {
             lanes[0][lane] = (span.scalar[0] - reference) as f32;
             lanes[1][lane] = (span.scalar[1] - reference) as f32;
-            lanes[2][lane] = (span.depth[1] - span.depth[0]) as f32;
+            let length = span.depth[1] - span.depth[0];
+            lanes[2][lane] = length as f32;
+            lanes[3][lane] =
+                if space.is_perspective { length / (span.depth[0] * span.depth[1]) } else { length } as f32;
             any = true;
         }
     }
@@ -123,12 +144,12 @@ pub(crate) fn careful_lanes(
 pub(crate) fn careful_sample<S: Simd>(
     simd: S,
     cell: &CarefulCell,
-    reference: f64,
+    record: &CellRecord,
     space: &PixelSpace,
-    place: [u32; 2],
+    [x, y]: [u32; 2],
 ) -> Option<Sample<S>> {
-    let [front, back, length] = careful_lanes(cell, reference, space, place)?;
-    let length = f32x8::from_slice(simd, &length);
+    let [front, back, length, nearness] =
+        careful_lanes(cell, record.scalar_reference, space, [x, y])?.map(|lane| f32x8::from_slice(simd, &lane));
     let covered = length.simd_gt(f32x8::splat(simd, 0.0));
-    Some(Sample { front: f32x8::from_slice(simd, &front), back: f32x8::from_slice(simd, &back), length, covered })
+    Some(Sample { front, back, length, nearness, place: [columns(simd, record, x), rows(simd, record, y)], covered })
 }

@@ -10,6 +10,7 @@
 //! Cells stay in one order from stage 2 on and every tile is drawn by one thread, so that the picture does not depend on the number of
 //! threads. What depends on the transfer function alone is kept from frame to frame.
 
+mod fan;
 mod lanes;
 mod optics;
 mod record;
@@ -23,6 +24,7 @@ use fearless_simd::Level;
 use glam::DVec3;
 use rayon::prelude::*;
 
+use tetrascope_integrate::Integration;
 use tetrascope_mesh::{CellId, Frame, TetMesh, VertexId};
 use tetrascope_order::Cells;
 use tetrascope_scene::{Plan, Progress, Stage};
@@ -118,21 +120,26 @@ impl CpuRenderer {
         let order = plan.order.make().order(cells, view.viewpoint(), &seen);
         watch.lap(Stage::Order);
 
-        let setup = record::SetUp { renderer: self, points: &points, space: &space, optics: &optics };
-        let records: Vec<Records> =
-            order.front_to_back.par_chunks(CHUNK).map(|chunk| setup.records(chunk)).collect();
+        let with_fans = plan.integration == Integration::Vertex;
+        let setup = record::SetUp { renderer: self, points: &points, space: &space, optics: &optics, with_fans };
+        let records: Vec<Records> = order.front_to_back.par_chunks(CHUNK).map(|chunk| setup.records(chunk)).collect();
         watch.lap(Stage::SetUp);
 
         let grid = TileGrid::new(space.size, TILE_SIDE);
         let bins: Vec<Bins> = records
             .par_iter()
-            .map(|records| grid.bin(records.cells.iter().map(CellRecord::outline), |item, tile| records.may_show(item, tile, &space)))
+            .map(|records| {
+                grid.bin(records.cells.iter().map(CellRecord::outline), |item, tile| {
+                    records.may_show(item, tile, &space)
+                })
+            })
             .collect();
         watch.lap(Stage::Bin);
 
         let fragments = AtomicU64::new(0);
         let done = AtomicU64::new(0);
-        let job = tile::Job { records: &records, bins: &bins, grid, space: &space, optics: &optics, plan, level: self.level };
+        let job =
+            tile::Job { records: &records, bins: &bins, grid, space: &space, optics: &optics, plan, level: self.level };
         let tiles: Vec<tile::Pixels> = (0..grid.len())
             .into_par_iter()
             .with_max_len(1)
@@ -175,4 +182,4 @@ impl CpuRenderer {
             }
         }
     }
-
+}

@@ -8,10 +8,12 @@
 //! - chord length, in units of the reference depth and of the ray's stretch: `(e_f - e_b) / ((1 + e_f) (1 + e_b))`;
 //! - scalar: `(G - k e) / (1 + e)` with `G` linear in the pixels. Without the denominators when orthographic.
 
-use glam::DVec3;
+use glam::{DVec2, DVec3};
+use tetrascope_classify::{DepthPlane, cut_at_depth};
 use tetrascope_mesh::CellId;
 
 use super::CpuRenderer;
+use super::fan::{Fan, FanSetUp};
 use super::optics::{CellPieces, Optics};
 use crate::geometry::{ClipCell, PixelBox, PixelSpace, is_outside_rectangle, pixel_box};
 use crate::grid::Tile;
@@ -67,6 +69,8 @@ pub(crate) struct CarefulCell {
 pub(crate) struct Records {
     pub(crate) cells: Vec<CellRecord>,
     pub(crate) careful: Vec<CarefulCell>,
+    /// One for each of `cells` where the integration asks for fans, else none.
+    pub(crate) fans: Vec<Option<Fan>>,
 }
 
 impl Records {
@@ -91,27 +95,84 @@ pub(crate) struct SetUp<'a> {
     pub(crate) points: &'a [DVec3],
     pub(crate) space: &'a PixelSpace,
     pub(crate) optics: &'a Optics,
+    /// Whether the integration is defined on fans of triangles.
+    pub(crate) with_fans: bool,
 }
+
+/// Fans have no place on the screen for what lies behind the eye: cells are cut at this share of their farthest depth.
+const FAN_NEAR: f64 = 1e-4;
 
 impl SetUp<'_> {
     /// Sets up cells in the order given; those without volume or outside the picture are left out.
     pub(crate) fn records(&self, cells: &[CellId]) -> Records {
-        let mut records = Records { cells: Vec::with_capacity(cells.len()), careful: Vec::new() };
+        let mut records = Records { cells: Vec::with_capacity(cells.len()), ..Records::default() };
         for &cell in cells {
             let vertices = self.renderer.tetrahedra[cell.index()];
             let corners = vertices.map(|v| self.points[v.index()]);
             let scalars = vertices.map(|v| self.renderer.scalars[v.index()]);
             let is_positive = self.renderer.is_positive[cell.index()];
-            let Some(outline) = pixel_box(&corners, self.space) else { continue };
             let pieces = self.optics.pieces_of(cell);
-            let record = self.record(&corners, &scalars, is_positive, outline, pieces).or_else(|| {
-                let clip = ClipCell::new(&corners, &scalars, is_positive)?;
-                records.careful.push(CarefulCell { corners, clip });
-                Some(self.careful_record(&scalars, outline, pieces, records.careful.len() - 1))
-            });
-            records.cells.extend(record);
+            if self.with_fans {
+                self.add_with_fan(&corners, &scalars, is_positive, pieces, &mut records);
+            } else {
+                self.add(&corners, &scalars, is_positive, pieces, &mut records);
+            }
         }
         records
+    }
+
+    /// Adds a cell's record, if it has volume and can be seen.
+    fn add(
+        &self,
+        corners: &[DVec3; 4],
+        scalars: &[f64; 4],
+        is_positive: bool,
+        pieces: CellPieces,
+        records: &mut Records,
+    ) {
+        let Some(outline) = pixel_box(corners, self.space) else { return };
+        let record = self.record(corners, scalars, is_positive, outline, pieces).or_else(|| {
+            let clip = ClipCell::new(corners, scalars, is_positive)?;
+            records.careful.push(CarefulCell { corners: *corners, clip });
+            Some(self.careful_record(scalars, outline, pieces, records.careful.len() - 1))
+        });
+        records.cells.extend(record);
+    }
+
+    /// Adds a cell's record and its fan; a cell that reaches the plane of the eye is cut there into cells that do not.
+    fn add_with_fan(
+        &self,
+        corners: &[DVec3; 4],
+        scalars: &[f64; 4],
+        is_positive: bool,
+        pieces: CellPieces,
+        records: &mut Records,
+    ) {
+        let fans = FanSetUp { space: self.space, transfer: self.optics.transfer(), model: self.optics.model };
+        let mut add = |corners: &[DVec3; 4], scalars: &[f64; 4], is_positive: bool| {
+            self.add(corners, scalars, is_positive, pieces, records);
+            if let Some(record) = records.cells.get(records.fans.len()) {
+                let [u, w] = [0, 1].map(|i| PixelSpace::center(u32::from(record.pixel[i]), self.space.size[i]));
+                let depth = if self.space.is_perspective { record.length / self.space.world_per_depth } else { 1.0 };
+                records.fans.push(fans.fan(corners, scalars, is_positive, DVec2::new(u, w), depth));
+            }
+        };
+        let farthest = corners.iter().fold(f64::NEG_INFINITY, |m, p| m.max(p.z));
+        let depth = if self.space.is_perspective { FAN_NEAR * farthest } else { 0.0 };
+        if corners.iter().all(|p| p.z >= depth) {
+            add(corners, scalars, is_positive);
+            return;
+        }
+        let (mut corners, mut scalars) = (*corners, *scalars);
+        if !is_positive {
+            corners.swap(2, 3);
+            scalars.swap(2, 3);
+        }
+        let ids = if is_positive { [0, 1, 2, 3] } else { [0, 1, 3, 2] };
+        let plane = DepthPlane { origin: DVec3::ZERO, forward: DVec3::Z, depth };
+        for piece in cut_at_depth(&corners, &scalars, ids, &plane).pieces() {
+            add(&piece.positions, &piece.scalars, true);
+        }
     }
 
     /// The record of a cell that f32 can draw; `None` if it cannot.
@@ -144,7 +205,8 @@ impl SetUp<'_> {
 
         let [x0, x1, y0, y1] = outline;
         let pixel = [(x0 + x1) / 2, (y0 + y1) / 2];
-        let [u, w] = [PixelSpace::center(pixel[0], self.space.size[0]), PixelSpace::center(pixel[1], self.space.size[1])];
+        let [u, w] =
+            [PixelSpace::center(pixel[0], self.space.size[0]), PixelSpace::center(pixel[1], self.space.size[1])];
         let depth = (a.z + b.z + c.z + d.z) * 0.25;
         let (reference, across) =
             if is_perspective { (DVec3::new(u, w, 1.0) * depth, depth) } else { (DVec3::new(u, w, depth), 1.0) };
@@ -180,7 +242,8 @@ impl SetUp<'_> {
         }
 
         let gradient =
-            -(n1 * (scalars[1] - scalars[0]) + n2 * (scalars[2] - scalars[0]) + n3 * (scalars[3] - scalars[0])) / six_volume;
+            -(n1 * (scalars[1] - scalars[0]) + n2 * (scalars[2] - scalars[0]) + n3 * (scalars[3] - scalars[0]))
+                / six_volume;
         let scalar_reference = scalars[0] + gradient.dot(from_a);
         let low = scalars.iter().fold(f64::INFINITY, |m, &s| m.min(s));
         let high = scalars.iter().fold(f64::NEG_INFINITY, |m, &s| m.max(s));
@@ -217,7 +280,7 @@ impl SetUp<'_> {
             scalar_range: [0.0, (high - low) as f32],
             scalar_reference: low,
             length: self.space.world_per_depth,
-            pixel: [0; 2],
+            pixel: [(outline[0] + outline[1]) / 2, (outline[2] + outline[3]) / 2].map(|p| p as u16),
             outline: outline.map(|p| p as u16),
             pieces,
             entry_count: 0,

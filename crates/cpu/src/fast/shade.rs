@@ -3,6 +3,7 @@
 use fearless_simd::{Simd, f32x8, prelude::*};
 use tetrascope_integrate::lanes::{density_emitter_weights, emitter_weights, opacity_transmittance};
 
+use super::fan::Fan;
 use super::lanes::Sample;
 use super::optics::LocalPiece;
 
@@ -133,10 +134,19 @@ impl Model for Emission {
     }
 }
 
+/// What a method knows of a cell's optics.
+#[derive(Clone, Copy)]
+pub(crate) struct CellOptics<'a> {
+    /// The pieces of the transfer function that the cell meets, ascending; at least one.
+    pub(crate) pieces: &'a [LocalPiece],
+    /// Its fan of triangles, where the method asks for fans; `None` if its outline has no area.
+    pub(crate) fan: Option<&'a Fan>,
+}
+
 /// An integration method.
 pub(crate) trait Method {
-    /// The light of a block's segments through a cell that sees these pieces of the transfer function; at least one.
-    fn shade<S: Simd, M: Model>(simd: S, pieces: &[LocalPiece], sample: &Sample<S>) -> Light<S>;
+    /// The light of a block's segments through a cell.
+    fn shade<S: Simd, M: Model>(simd: S, cell: CellOptics<'_>, sample: &Sample<S>) -> Light<S>;
 }
 
 /// Cut at the control points, then closed form.
@@ -144,12 +154,12 @@ pub(crate) struct Exact;
 
 impl Method for Exact {
     #[inline(always)]
-    fn shade<S: Simd, M: Model>(simd: S, pieces: &[LocalPiece], sample: &Sample<S>) -> Light<S> {
-        if let [piece] = pieces {
+    fn shade<S: Simd, M: Model>(simd: S, cell: CellOptics<'_>, sample: &Sample<S>) -> Light<S> {
+        if let [piece] = cell.pieces {
             let start = f32x8::splat(simd, piece.start);
             return M::linear(simd, piece, sample.front - start, sample.back - start, sample.length);
         }
-        cut::<S, M>(simd, pieces, sample)
+        cut::<S, M>(simd, cell.pieces, sample)
     }
 }
 
@@ -193,7 +203,7 @@ pub(crate) struct Average;
 
 impl Method for Average {
     #[inline(always)]
-    fn shade<S: Simd, M: Model>(simd: S, pieces: &[LocalPiece], sample: &Sample<S>) -> Light<S> {
+    fn shade<S: Simd, M: Model>(simd: S, cell: CellOptics<'_>, sample: &Sample<S>) -> Light<S> {
         let mean = (sample.front + sample.back) * 0.5;
         let value = |piece: &LocalPiece, scalar: f32x8<S>| {
             let distance = scalar - f32x8::splat(simd, piece.start);
@@ -201,8 +211,8 @@ impl Method for Average {
                 std::array::from_fn(|c| at(simd, [piece.color[0][c], piece.color[1][c]], distance));
             (at(simd, piece.extinction, distance), color)
         };
-        let (mut extinction, mut color) = value(&pieces[0], mean);
-        for piece in &pieces[1..] {
+        let (mut extinction, mut color) = value(&cell.pieces[0], mean);
+        for piece in &cell.pieces[1..] {
             let is_here = mean.simd_ge(f32x8::splat(simd, piece.start));
             if is_here.any_true() {
                 let (rho, kappa) = value(piece, mean);
@@ -213,5 +223,18 @@ impl Method for Average {
             }
         }
         M::constant(simd, extinction, color, sample.length)
+    }
+}
+
+/// Color and opacity at the vertices, interpolated over the fan's triangles (Shirley and Tuchman 1990, sections 2.5 and 2.6).
+pub(crate) struct Vertex;
+
+impl Method for Vertex {
+    #[inline(always)]
+    fn shade<S: Simd, M: Model>(simd: S, cell: CellOptics<'_>, sample: &Sample<S>) -> Light<S> {
+        match cell.fan {
+            Some(fan) => fan.shade(simd, sample),
+            None => Light { rgb: [f32x8::splat(simd, 0.0); 3], transmittance: f32x8::splat(simd, 1.0) },
+        }
     }
 }

@@ -6,9 +6,11 @@ use tetrascope_scene::Plan;
 use tetrascope_view::LinearImage;
 
 use super::lanes::{BLOCK_HEIGHT, BLOCK_WIDTH, LANES, PlaneRow, Sample, careful_sample};
-use super::optics::{LocalPiece, Optics};
+use super::optics::Optics;
 use super::record::{CellRecord, Records};
-use super::shade::{Absorption, Average, DensityEmitter, Emission, Emitter, Exact, Light, Method, Model};
+use super::shade::{
+    Absorption, Average, CellOptics, DensityEmitter, Emission, Emitter, Exact, Light, Method, Model, Vertex,
+};
 use crate::geometry::PixelSpace;
 use crate::grid::{Bins, Tile, TileGrid};
 
@@ -74,8 +76,9 @@ impl Job<'_> {
     /// Draws a tile; also gives the number of fragments.
     pub(crate) fn draw(&self, index: usize) -> (Pixels, u64) {
         match self.plan.integration {
+            Integration::Vertex => self.draw_with::<Vertex>(index),
             Integration::Average => self.draw_with::<Average>(index),
-            _ => self.draw_with::<Exact>(index),
+            Integration::Exact => self.draw_with::<Exact>(index),
         }
     }
 
@@ -105,9 +108,16 @@ impl Job<'_> {
         for (records, bins) in self.records.iter().zip(self.bins) {
             for &item in bins.of(index) {
                 let record = &records.cells[item as usize];
-                self.optics.localize(record.pieces, record.scalar_reference, record.scalar_range, record.length, &mut pieces);
-                fragments +=
-                    self.draw_cell::<S, I, M, PERSPECTIVE>(simd, tile, records, record, &pieces, &mut pixels);
+                self.optics.localize(
+                    record.pieces,
+                    record.scalar_reference,
+                    record.scalar_range,
+                    record.length,
+                    &mut pieces,
+                );
+                let fan = records.fans.get(item as usize).and_then(Option::as_ref);
+                let cell = CellOptics { pieces: &pieces, fan };
+                fragments += self.draw_cell::<S, I, M, PERSPECTIVE>(simd, tile, records, record, cell, &mut pixels);
             }
         }
         (pixels, fragments)
@@ -121,7 +131,7 @@ impl Job<'_> {
         tile: Tile,
         records: &Records,
         record: &CellRecord,
-        pieces: &[LocalPiece],
+        cell: CellOptics<'_>,
         pixels: &mut Pixels,
     ) -> u64 {
         let [x0, x1, y0, y1] = record.outline();
@@ -138,15 +148,15 @@ impl Job<'_> {
                 let planes = PlaneRow::new(simd, record, y);
                 for column in columns {
                     if let Some(sample) = planes.sample::<PERSPECTIVE>(simd, tile.x + column * BLOCK_WIDTH) {
-                        fragments += blend::<S, I, M, PERSPECTIVE>(simd, pieces, sample, &mut blocks[column as usize]);
+                        fragments += blend::<S, I, M, PERSPECTIVE>(simd, cell, sample, &mut blocks[column as usize]);
                     }
                 }
             } else {
                 let careful = &records.careful[record.careful as usize];
                 for column in columns {
                     let place = [tile.x + column * BLOCK_WIDTH, y];
-                    if let Some(sample) = careful_sample(simd, careful, record.scalar_reference, self.space, place) {
-                        fragments += blend::<S, I, M, PERSPECTIVE>(simd, pieces, sample, &mut blocks[column as usize]);
+                    if let Some(sample) = careful_sample(simd, careful, record, self.space, place) {
+                        fragments += blend::<S, I, M, PERSPECTIVE>(simd, cell, sample, &mut blocks[column as usize]);
                     }
                 }
             }
@@ -159,14 +169,14 @@ impl Job<'_> {
 #[inline(always)]
 fn blend<S: Simd, I: Method, M: Model, const PERSPECTIVE: bool>(
     simd: S,
-    pieces: &[LocalPiece],
+    cell: CellOptics<'_>,
     mut sample: Sample<S>,
     block: &mut Block,
 ) -> u64 {
     if PERSPECTIVE {
         sample.length = sample.length * f32x8::from_slice(simd, &block.stretch);
     }
-    let Light { rgb, transmittance } = I::shade::<S, M>(simd, pieces, &sample);
+    let Light { rgb, transmittance } = I::shade::<S, M>(simd, cell, &sample);
     let before = f32x8::from_slice(simd, &block.transmittance);
     if M::EMITS {
         for (channel, color) in block.rgb.iter_mut().zip(rgb) {

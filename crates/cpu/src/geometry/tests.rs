@@ -145,8 +145,7 @@ fn pixel_space_agrees_with_the_rays_of_the_view() {
             let (u, w) = (PixelSpace::center(x, 31), PixelSpace::center(y, 20));
             for t in [0.5, 4.0] {
                 let at = space.transform(ray.origin + ray.direction * t);
-                let expected =
-                    if view.is_perspective { DVec3::new(u, w, 1.0) * at.z } else { DVec3::new(u, w, at.z) };
+                let expected = if view.is_perspective { DVec3::new(u, w, 1.0) * at.z } else { DVec3::new(u, w, at.z) };
                 assert!((at - expected).length() < 1e-11, "{at} {expected}");
                 let length = at.z * space.ray_stretch(u, w);
                 assert!((length - ray.direction.length() * t).abs() < 1e-12);

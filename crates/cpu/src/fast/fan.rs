@@ -1,0 +1,159 @@
+//! Fans of triangles, for the integration that is defined on them.
+//!
+//! Shirley and Tuchman (1990, section 2.6) interpolate color and opacity linearly on the screen over each triangle between
+//! the thick vertex and two corners. The opacity is 0 on the outline and greatest at the thick vertex, as the chord's
+//! nearness is; so it is the thick vertex's opacity times the share of nearness, and only the color needs the
+//! triangles.
+
+use fearless_simd::{Simd, f32x8, prelude::*};
+use glam::{DVec2, DVec3};
+use tetrascope_classify::{FanVertex, Viewpoint, project};
+use tetrascope_integrate::{OpticalModel, Segment, TransferFunction, thick_vertex};
+
+use super::lanes::Sample;
+use super::shade::Light;
+use crate::geometry::PixelSpace;
+
+/// A cell's fan on the screen; pixels are counted from the record's reference pixel.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Fan {
+    /// For every corner around the thick vertex: on which side of the line from the thick vertex to the corner a pixel lies, as a
+    /// plane; not negative beyond it, counted around the fan.
+    spokes: [Plane; 5],
+    /// The three color channels over the triangle that follows each spoke.
+    colors: [[Plane; 3]; 4],
+    /// Number of triangles.
+    count: usize,
+    /// Light at the thick vertex: color, not multiplied by opacity where the model has one.
+    peak: [f32; 3],
+    opacity: f32,
+    /// One over the nearness of the thick vertex's chord.
+    inverse_nearness: f32,
+}
+
+/// A function that is linear on the screen: at the reference pixel, per column, per row.
+type Plane = [f32; 3];
+
+/// What a fan needs to know of the frame.
+pub(crate) struct FanSetUp<'a> {
+    pub(crate) space: &'a PixelSpace,
+    pub(crate) transfer: &'a TransferFunction,
+    pub(crate) model: OpticalModel,
+}
+
+impl FanSetUp<'_> {
+    /// The fan of a cell all of which lies in front of the eye; `None` if its outline has no area.
+    ///
+    /// - `corners`: in pixel space, with their scalars, in ascending order of the vertices
+    /// - `pixel`: center of the reference pixel
+    /// - `depth`: the record's reference depth
+    pub(crate) fn fan(
+        &self,
+        corners: &[DVec3; 4],
+        scalars: &[f64; 4],
+        is_positive: bool,
+        pixel: DVec2,
+        depth: f64,
+    ) -> Option<Fan> {
+        let (mut corners, mut scalars, mut ids) = (*corners, *scalars, [0_u32, 1, 2, 3]);
+        if !is_positive {
+            corners.swap(2, 3);
+            scalars.swap(2, 3);
+            ids.swap(2, 3);
+        }
+        let is_perspective = self.space.is_perspective;
+        let viewpoint = if is_perspective { Viewpoint::Eye(DVec3::ZERO) } else { Viewpoint::Direction(DVec3::Z) };
+        let projected = project(&corners, &scalars, ids, viewpoint);
+        let thick = projected.thick?;
+        let on_screen = |p: DVec3| if is_perspective { p.truncate() / p.z } else { p.truncate() };
+        let center = on_screen(if is_perspective { thick.ray } else { thick.near });
+        let chord =
+            if is_perspective { thick.chord_length * thick.ray.z / thick.ray.length() } else { thick.chord_length };
+        let nearness = if is_perspective { depth * chord / (thick.near.z * thick.far.z) } else { chord };
+        if !(nearness > 0.0 && nearness.is_finite()) {
+            return None;
+        }
+        let segment = Segment {
+            scalar_front: thick.scalar_front,
+            scalar_back: thick.scalar_back,
+            chord_length: chord * self.space.ray_stretch(center.x, center.y),
+        };
+        let light = thick_vertex(self.transfer, self.model, &segment);
+        // Where color is multiplied by opacity, the color itself is interpolated; else light that is 0 on the outline.
+        let has_color = self.model == OpticalModel::DensityEmitter;
+        let peak = if has_color {
+            let (front, back) = (self.transfer.color(thick.scalar_front), self.transfer.color(thick.scalar_back));
+            std::array::from_fn(|c| 0.5 * (front[c] + back[c]))
+        } else {
+            light.rgb
+        };
+        let mut fan = Fan {
+            spokes: [[0.0; 3]; 5],
+            colors: [[[0.0; 3]; 3]; 4],
+            count: 0,
+            peak: peak.map(|x| x as f32),
+            opacity: light.opacity as f32,
+            inverse_nearness: (1.0 / nearness) as f32,
+        };
+        if !has_color {
+            return Some(fan);
+        }
+        for [_, i, j] in projected.fan.triangles() {
+            let corner = |v: FanVertex| match v {
+                FanVertex::Corner(c) => Some((on_screen(corners[c]), self.transfer.color(scalars[c]))),
+                FanVertex::Thick => None,
+            };
+            let (Some((p, p_color)), Some((q, q_color))) = (corner(i), corner(j)) else { continue };
+            let (to_p, to_q) = (p - center, q - center);
+            let area = to_p.perp_dot(to_q);
+            if area == 0.0 || !area.is_finite() || fan.count == 4 {
+                continue;
+            }
+            let from_center = pixel - center;
+            let side = |spoke: DVec2| {
+                let turn = area.signum();
+                [spoke.perp_dot(from_center) * turn, -spoke.y * turn, spoke.x * turn].map(|x| x as f32)
+            };
+            fan.spokes[fan.count] = side(to_p);
+            fan.spokes[fan.count + 1] = side(to_q);
+            for c in 0..3 {
+                // The gradient g with g . to_p and g . to_q the differences of color.
+                let (dp, dq) = (p_color[c] - peak[c], q_color[c] - peak[c]);
+                let gradient = DVec2::new(dp * to_q.y - dq * to_p.y, dq * to_p.x - dp * to_q.x) / area;
+                fan.colors[fan.count][c] =
+                    [peak[c] + gradient.dot(from_center), gradient.x, gradient.y].map(|x| x as f32);
+            }
+            fan.count += 1;
+        }
+        Some(fan)
+    }
+}
+
+impl Fan {
+    /// The light of a block.
+    #[inline(always)]
+    pub(crate) fn shade<S: Simd>(&self, simd: S, sample: &Sample<S>) -> Light<S> {
+        let [column, row] = sample.place;
+        let plane = |p: &Plane| {
+            let at_row = f32x8::splat(simd, p[2]).mul_add(row, f32x8::splat(simd, p[0]));
+            f32x8::splat(simd, p[1]).mul_add(column, at_row)
+        };
+        // The clamp is for rounding alone.
+        let share = (sample.nearness * self.inverse_nearness).min(1.0);
+        let opacity = share * self.opacity;
+        let transmittance = f32x8::splat(simd, 1.0) - opacity;
+        let mut color = self.peak.map(|x| f32x8::splat(simd, x));
+        if self.count == 0 {
+            return Light { rgb: color.map(|c| c * share), transmittance };
+        }
+        for triangle in 0..self.count {
+            let begins = plane(&self.spokes[triangle]).simd_ge(f32x8::splat(simd, 0.0));
+            let ends = plane(&self.spokes[triangle + 1]).simd_lt(f32x8::splat(simd, 0.0));
+            let inside = begins & ends;
+            for (channel, over) in color.iter_mut().zip(&self.colors[triangle]) {
+                *channel = inside.select(plane(over).max(0.0), *channel);
+            }
+        }
+        Light { rgb: color.map(|c| c * opacity), transmittance }
+    }
+}

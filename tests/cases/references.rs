@@ -1,0 +1,89 @@
+//! Every reference picture, drawn by the f64 reference and by the fast renderer.
+//!
+//! The limits of the reference are those that the pictures' README states. The fast renderer is held to the README's
+//! limit where sorting by centroids happens to give a right order, and to what it reaches with that order where not.
+
+use tetrascope::{Backend, Choice, Integration, LinearImage, SceneFile, Silent, read_exr, render_scene};
+use tetrascope_tests::compare::{Difference, difference};
+use tetrascope_tests::shared;
+
+struct Case {
+    name: &'static str,
+    reference_within: f64,
+    /// `None` where the fast renderer's orders cannot be right.
+    fast: Option<Fast>,
+    /// Pixels (column, row) where the mesh overlaps itself.
+    leave_out: &'static [(u32, u32)],
+}
+
+struct Fast {
+    /// Largest difference of the pixels that count.
+    within: f64,
+    /// Share of the pixels that may differ by more: those along steps of the color, and those that the order gets wrong.
+    but_for: f64,
+}
+
+const CASES: &[Case] = &[
+    Case { name: "cube5", reference_within: 1e-6, fast: Some(Fast { within: 2e-5, but_for: 0.0 }), leave_out: &[] },
+    Case { name: "bluntfin", reference_within: 1e-5, fast: Some(Fast { within: 5e-4, but_for: 0.0 }), leave_out: &[] },
+    Case {
+        name: "bluntfin-inside",
+        reference_within: 1e-5,
+        fast: Some(Fast { within: 5e-4, but_for: 0.0 }),
+        leave_out: &[],
+    },
+    Case {
+        name: "combustor",
+        reference_within: 1e-5,
+        fast: Some(Fast { within: 5e-4, but_for: 0.0 }),
+        leave_out: &[(123, 84)],
+    },
+    Case { name: "block", reference_within: 1e-5, fast: Some(Fast { within: 1e-3, but_for: 0.0 }), leave_out: &[] },
+    Case { name: "fire", reference_within: 1e-5, fast: Some(Fast { within: 5e-4, but_for: 0.003 }), leave_out: &[] },
+    Case { name: "cyclic", reference_within: 1e-6, fast: None, leave_out: &[] },
+];
+
+/// Draws a scene of the reference folder with a back end; gives it and the picture it should be.
+fn draw(name: &str, backend: Backend) -> Option<(LinearImage, LinearImage)> {
+    let folder = shared::folder(name)?.join("reference");
+    let path = folder.join(format!("{name}.toml"));
+    let text = std::fs::read_to_string(&path).unwrap();
+    let mut scene = SceneFile::parse(&text, &path).unwrap();
+    scene.quality.integration = Choice::Named(Integration::Exact);
+    scene.quality.backend = backend;
+    let picture = render_scene(&scene, &folder, &Silent).unwrap();
+    Some((picture.image, read_exr(&folder.join(format!("{name}.exr"))).unwrap()))
+}
+
+fn report(name: &str, what: &str, found: &Difference) {
+    println!("{name} by {what}: largest {:.2e} at {:?}, rms {:.2e}, {} pixels beyond", found.largest, found.at, found.rms, found.beyond);
+}
+
+#[test]
+fn references_by_the_f64_renderer() {
+    let mut failures = Vec::new();
+    for case in CASES {
+        let Some((drawn, expected)) = draw(case.name, Backend::Reference) else { return };
+        let found = difference(&drawn, &expected, case.reference_within, case.leave_out);
+        report(case.name, "reference", &found);
+        if found.largest > case.reference_within {
+            failures.push((case.name, found));
+        }
+    }
+    assert!(failures.is_empty(), "{failures:#?}");
+}
+
+#[test]
+fn references_by_the_fast_renderer() {
+    let mut failures = Vec::new();
+    for case in CASES {
+        let Some(fast) = &case.fast else { continue };
+        let Some((drawn, expected)) = draw(case.name, Backend::Cpu) else { return };
+        let found = difference(&drawn, &expected, fast.within, case.leave_out);
+        report(case.name, "cpu", &found);
+        if found.beyond as f64 > fast.but_for * drawn.pixels().len() as f64 {
+            failures.push((case.name, found));
+        }
+    }
+    assert!(failures.is_empty(), "{failures:#?}");
+}
