@@ -81,6 +81,15 @@ fn perspective_chords_beside_the_thick_vertex_can_be_longer() {
     assert!(leave - enter > 2.5, "{}", leave - enter);
 }
 
+/// Volumes that are all rounding, as of a flat cell seen along its plane, may ask for any length.
+#[test]
+fn made_up_volumes_give_no_chord_beyond_the_cell() {
+    let positions = [DVec3::ZERO, DVec3::X, DVec3::Y, DVec3::Z];
+    let volumes = SignedVolumes { a: [1e-20, -1e-20, 0.0, 0.0], six_volume: 1e-18 };
+    let shown = Projected::from_volumes(volumes, &positions, &[0.0; 4], Viewpoint::Direction(DVec3::X));
+    assert_eq!(shown.thick.unwrap().chord_length, 2.0_f64.sqrt());
+}
+
 #[test]
 fn eye_on_the_boundary_is_inside() {
     let positions = [DVec3::ZERO, DVec3::X, DVec3::Y, DVec3::Z];
