@@ -5,7 +5,7 @@ use std::time::{Duration, Instant};
 
 use tetrascope::{
     Completed, Plan, ProjectionName, Rendered, SceneFile, Volume, VolumeField, explain_blank, is_blank, resolve_path,
-    write_image,
+    warn_of_non_finite, write_image,
 };
 
 use crate::Failure;
@@ -82,7 +82,9 @@ impl Job<'_> {
         let rendered = field.render(&plan, bar)?;
         bar.clear();
         report.rendered(&rendered);
-        if is_blank(&rendered.image) {
+        if let Some(warning) = warn_of_non_finite(&rendered.image) {
+            report.warn(&warning);
+        } else if is_blank(&rendered.image) {
             report.blank(&explain_blank(&plan, &field.facts));
         }
         let written_in = self.write(&completed, &plan, &rendered, report)?;

@@ -32,7 +32,7 @@ impl Report {
         self.object.insert(key.to_owned(), value);
     }
 
-    fn warn(&mut self, text: &str) {
+    pub(crate) fn warn(&mut self, text: &str) {
         warning(text);
         self.warnings.push(text.to_owned());
     }
@@ -121,7 +121,7 @@ impl Report {
         self.say(
             "drawn",
             &format!(
-                "{} of {} tetrahedra ({} invisible by the transfer function, {} out of view), {} fragments",
+                "{} of {} tetrahedra ({} invisible by the transfer function, {} out of view or between pixels), {} fragments",
                 counts.drawn, counts.cells, counts.transparent, counts.outside, counts.fragments
             ),
         );

@@ -8,14 +8,12 @@ use crate::Failure;
 use crate::render::{DEFAULT_OUTPUT, Job};
 use crate::report::line;
 
-/// The scene, as a user would write it; it is also what the second hint below shows.
+/// The scene, as a user would write it.
 const SCENE: &str = include_str!("sample.toml");
 
 pub(crate) fn run() -> Result<(), Failure> {
-    line(
-        "Drawing the built-in sample: the distance from a sphere on a coarse mesh. Its opacity is 0 except in two small",
-    );
-    line("intervals of the scalar, far thinner than a cell: a test that sampling at vertices fails.\n");
+    line("Drawing the built-in sample: the distance from a sphere on a coarse mesh. Its opacity is 0 except in three");
+    line("thin intervals, each a fraction of what one cell spans: sampling at the cells' corners would miss them.\n");
     let scene = SceneFile::parse(SCENE, Path::new("sample.toml")).map_err(|e| Failure::Input(e.to_string()))?;
     let outputs = [PathBuf::from(DEFAULT_OUTPUT)];
     let base_dir = PathBuf::from(".");

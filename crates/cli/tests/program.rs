@@ -246,7 +246,7 @@ fn info_tells_what_is_there() {
     let run = Run::new();
     let out = run.good(&["info", "mesh.vtu"]);
     has(&out, &["2  tetrahedron", "point array \"s\", 0 to 4, Float64", "x 0 to 1", "none: the mesh is sound"]);
-    has(&out, &["1 not finite", "VTU"]);
+    has(&out, &["1 not finite", "VTK XML"]);
 }
 
 #[test]

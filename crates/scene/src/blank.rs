@@ -69,14 +69,19 @@ fn side_out_of_view(view: &View, facts: &MeshFacts) -> Option<&'static str> {
         .collect();
     // How far the picture's edge is at a corner's depth; behind the eye the sides cross, and only "behind" is asked.
     let reach = |half: f64, depth: f64| if view.is_perspective { half * depth } else { half };
-    let sides: [(&str, &dyn Fn(&DVec3) -> bool); 5] = [
-        ("behind it", &|p| p.z <= 0.0),
-        ("to its right", &|p| p.x > reach(view.half_width, p.z)),
-        ("to its left", &|p| -p.x > reach(view.half_width, p.z)),
-        ("above it", &|p| p.y > reach(view.half_height, p.z)),
-        ("below it", &|p| -p.y > reach(view.half_height, p.z)),
-    ];
-    sides.into_iter().find(|(_, is_out)| corners.iter().all(is_out)).map(|(side, _)| side)
+    if corners.iter().all(|p| p.z <= 0.0) {
+        Some("behind it")
+    } else if corners.iter().all(|p| p.x > reach(view.half_width, p.z)) {
+        Some("to its right")
+    } else if corners.iter().all(|p| -p.x > reach(view.half_width, p.z)) {
+        Some("to its left")
+    } else if corners.iter().all(|p| p.y > reach(view.half_height, p.z)) {
+        Some("above it")
+    } else if corners.iter().all(|p| -p.y > reach(view.half_height, p.z)) {
+        Some("below it")
+    } else {
+        None
+    }
 }
 
 /// Diameter of the bounding sphere in pixels; `None` with the eye inside.

@@ -29,7 +29,7 @@ mod render;
 mod volume;
 
 pub use error::Error;
-pub use render::{Picture, is_blank, render_scene, render_volume};
+pub use render::{Picture, is_blank, render_scene, render_volume, warn_of_non_finite};
 pub use volume::{SAMPLE, Volume, VolumeField, is_builtin, resolve_path};
 
 pub use tetrascope_cpu::{Counts, CpuRenderer, RenderError, Rendered, reference};
@@ -51,3 +51,6 @@ pub use {
     tetrascope_classify as classify, tetrascope_cpu as cpu, tetrascope_integrate as integrate, tetrascope_io as io,
     tetrascope_mesh as mesh, tetrascope_order as order, tetrascope_scene as scene, tetrascope_view as view,
 };
+
+#[cfg(test)]
+mod tests;

@@ -66,6 +66,7 @@ pub fn render_volume(volume: &Volume, scene: &SceneFile, progress: &dyn Progress
     warnings.extend(field.field.warnings.iter().cloned());
     warnings.extend(field.on_mesh.warning());
     warnings.extend(completed.warnings);
+    warnings.extend(warn_of_non_finite(&rendered.image));
     if is_blank(&rendered.image) {
         warnings.push("the picture is blank".to_owned());
         warnings.extend(explain_blank(&plan, &field.facts));
@@ -85,4 +86,18 @@ pub fn render_volume(volume: &Volume, scene: &SceneFile, progress: &dyn Progress
 /// Whether no channel of any pixel reaches 1/255, alpha included.
 pub fn is_blank(image: &LinearImage) -> bool {
     image.pixels().iter().flatten().all(|channel| channel.is_nan() || *channel < 1.0 / 255.0)
+}
+
+/// A warning if pixels are NaN or infinite, which is a defect of a back end; `None` otherwise.
+pub fn warn_of_non_finite(image: &LinearImage) -> Option<String> {
+    let is_bad = |pixel: &[f32; 4]| !pixel.iter().all(|channel| channel.is_finite());
+    let first = image.pixels().iter().position(is_bad)?;
+    let count = image.pixels().iter().filter(|pixel| is_bad(pixel)).count();
+    let width = image.width() as usize;
+    Some(format!(
+        "{count} pixels are no numbers (the first is column {}, row {}): the back end failed there; compare with the back \
+         end \"reference\"",
+        first % width,
+        first / width
+    ))
 }

@@ -17,7 +17,7 @@ use crate::Error;
 pub const SAMPLE: &str = "builtin:rings";
 
 /// Hexahedra along a side of the sample: coarse enough that its thin shells lie well inside cells.
-const SAMPLE_CELLS: usize = 16;
+const SAMPLE_CELLS: usize = 24;
 
 /// A mesh with its arrays, cut into tetrahedra.
 #[derive(Clone, Debug)]
