@@ -1,5 +1,7 @@
 //! Defaults: that they fit, and that they do not depend on the unit of length.
 
+#![expect(clippy::unwrap_used, reason = "a test that cannot go on fails here")]
+
 use glam::DVec3;
 use proptest::prelude::*;
 use tetrascope_integrate::Integration;
