@@ -24,6 +24,7 @@ pub(crate) fn run(args: &RenderArgs) -> Result<(), Failure> {
     let outputs = if args.output.is_empty() { &default_output[..] } else { &args.output };
     let job = Job {
         scene,
+        scene_path: args.input.first().map(PathBuf::as_path).filter(|path| is_scene(path)),
         base_dir,
         outputs,
         write_scene: args.write_scene.as_deref(),
@@ -39,6 +40,8 @@ pub(crate) fn run(args: &RenderArgs) -> Result<(), Failure> {
 pub(crate) struct Job<'a> {
     /// With the options' overrides.
     pub(crate) scene: SceneFile,
+    /// The file that the scene was read from, for messages.
+    pub(crate) scene_path: Option<&'a Path>,
     /// What the scene's paths are relative to.
     pub(crate) base_dir: PathBuf,
     pub(crate) outputs: &'a [PathBuf],
@@ -93,7 +96,10 @@ impl Job<'_> {
     }
 
     fn decide(&self, field: &VolumeField<'_>) -> Result<(Completed, Plan), Failure> {
-        let wrong = |error| tetrascope::Error::Scene(error);
+        let wrong = |error: tetrascope::SceneError| match self.scene_path {
+            Some(path) => Failure::Input(format!("{}: {error}", path.display())),
+            None => tetrascope::Error::Scene(error).into(),
+        };
         let mut completed = self.scene.complete(&field.facts).map_err(wrong)?;
         completed.file.mesh.field = Some(field.field.name.clone());
         completed.scene.threads = self.threads;

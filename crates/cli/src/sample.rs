@@ -17,7 +17,17 @@ pub(crate) fn run() -> Result<(), Failure> {
     let scene = SceneFile::parse(SCENE, Path::new("sample.toml")).map_err(|e| Failure::Input(e.to_string()))?;
     let outputs = [PathBuf::from(DEFAULT_OUTPUT)];
     let base_dir = PathBuf::from(".");
-    Job { scene, base_dir, outputs: &outputs, write_scene: None, threads: None, quiet: false, json: false }.run()?;
+    Job {
+        scene,
+        scene_path: None,
+        base_dir,
+        outputs: &outputs,
+        write_scene: None,
+        threads: None,
+        quiet: false,
+        json: false,
+    }
+    .run()?;
     line("\nTry next:");
     line("  tetrascope info FILE                                    what is in a mesh file");
     line("  tetrascope render FILE                                  draw it with defaults that fit");

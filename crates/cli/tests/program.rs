@@ -154,7 +154,7 @@ fn wrong_input_is_one() {
     has(&run.bad(1, &["render", "broken.vtu"]), &["broken.vtu"]);
     has(&run.bad(1, &["render", "typo.toml"]), &["typo.toml", "line 4", "`widht`", "`width`"]);
     has(&run.bad(1, &["render", "typo.json"]), &["typo.json", "line 2", "`lihgt`", "`light`"]);
-    has(&run.bad(1, &["render", "iso.toml"]), &["[[isosurface]]", "not supported yet"]);
+    has(&run.bad(1, &["render", "iso.toml"]), &["iso.toml", "[[isosurface]]", "not supported yet"]);
     has(&run.bad(1, &["render", "builtin:teapot"]), &["builtin:rings"]);
     has(&run.bad(1, &["render", "mesh.vtu", "-o", "nowhere/a.png"]), &["no folder nowhere"]);
     has(&run.bad(1, &["render", "mesh.vtu", "--eye", "1,1,1", "--target", "1,1,1"]), &["same point"]);
