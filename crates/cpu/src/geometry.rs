@@ -1,6 +1,7 @@
 //! A tetrahedron before a pixel's ray, in f64: the one definition of what a ray meets.
 
-use glam::DVec3;
+use glam::{DVec2, DVec3};
+use rayon::prelude::*;
 use tetrascope_view::View;
 
 /// Coordinates about the eye in which pixels are units.
@@ -169,36 +170,85 @@ impl ClipCell {
 /// The pixels whose centers a cell may cover: first and last column, first and last row, both included.
 pub(crate) type PixelBox = [u32; 4];
 
-/// Where a cell can be seen, or `None` if it cannot. Conservative.
-///
-/// A cell that reaches the plane of the eye in a perspective view has no finite outline; it is bounded by the picture.
-pub(crate) fn pixel_box(corners: &[DVec3; 4], space: &PixelSpace) -> Option<PixelBox> {
-    let half = space.size.map(|n| f64::from(n) * 0.5);
-    if corners.iter().all(|p| p.z <= 0.0) {
-        return None;
+/// Points in pixel space, and where they are on the screen.
+#[derive(Debug)]
+pub(crate) struct Points {
+    pub(crate) space: PixelSpace,
+    pub(crate) positions: Vec<DVec3>,
+    /// Column and row, counted so that the center of the first pixel is `(0, 0)`; of no meaning for a point that is not in
+    /// front of the eye of a perspective view.
+    screen: Vec<DVec2>,
+}
+
+impl Points {
+    /// Takes every point into pixel space, once.
+    pub(crate) fn new(space: PixelSpace, local: &[DVec3]) -> Self {
+        let middle = DVec2::new(f64::from(space.size[0]), f64::from(space.size[1])) * 0.5 - 0.5;
+        let (positions, screen) = local
+            .par_iter()
+            .map(|&p| {
+                let p = space.transform(p);
+                let screen = if space.is_perspective { p.truncate() / p.z } else { p.truncate() };
+                (p, screen + middle)
+            })
+            .unzip();
+        Self { space, positions, screen }
     }
-    let (mut low, mut high) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
-    if !space.is_perspective || corners.iter().all(|p| p.z > 0.0) {
-        for p in corners {
-            let [x, y] = if space.is_perspective { [p.x / p.z, p.y / p.z] } else { [p.x, p.y] };
-            low = [low[0].min(x), low[1].min(y)];
-            high = [high[0].max(x), high[1].max(y)];
+
+    #[inline]
+    pub(crate) fn corners(&self, vertices: [u32; 4]) -> [DVec3; 4] {
+        vertices.map(|v| self.positions[v as usize])
+    }
+
+    /// Where a cell can be seen, or `None` if it cannot. Conservative.
+    ///
+    /// A cell that reaches the plane of the eye in a perspective view has no finite outline; it is bounded by the picture.
+    #[inline]
+    pub(crate) fn pixel_box(&self, vertices: [u32; 4]) -> Option<PixelBox> {
+        let [a, b, c, d] = vertices.map(|v| self.positions[v as usize].z);
+        if self.space.is_perspective && a.min(b).min(c).min(d) <= 0.0 {
+            return self.box_at_the_eye(vertices);
         }
-    } else {
-        if is_outside_rectangle(corners, [-half[0], half[0]], [-half[1], half[1]]) {
+        if a.max(b).max(c).max(d) <= 0.0 {
             return None;
         }
-        (low, high) = ([-half[0], -half[1]], half);
+        let [a, b, c, d] = vertices.map(|v| self.screen[v as usize]);
+        self.pixels_between(a.min(b).min(c.min(d)), a.max(b).max(c.max(d)))
     }
-    // Projection rounds by some 1e-13 pixels; a pixel too many costs nothing.
-    const MARGIN: f64 = 1e-6;
-    let range = |axis: usize| {
-        let first = (low[axis] + half[axis] - 0.5 - MARGIN).ceil().max(0.0);
-        let last = (high[axis] + half[axis] - 0.5 + MARGIN).floor().min(f64::from(space.size[axis]) - 1.0);
-        (first <= last).then_some([first as u32, last as u32])
-    };
-    let ([x0, x1], [y0, y1]) = (range(0)?, range(1)?);
-    Some([x0, x1, y0, y1])
+
+    #[cold]
+    fn box_at_the_eye(&self, vertices: [u32; 4]) -> Option<PixelBox> {
+        let corners = self.corners(vertices);
+        let half = self.space.size.map(|n| f64::from(n) * 0.5);
+        if corners.iter().all(|p| p.z <= 0.0)
+            || is_outside_rectangle(&corners, [-half[0], half[0]], [-half[1], half[1]])
+        {
+            return None;
+        }
+        let [width, height] = self.space.size;
+        Some([0, width - 1, 0, height - 1])
+    }
+
+    /// The pixel centers in a rectangle of the screen.
+    #[inline]
+    fn pixels_between(&self, low: DVec2, high: DVec2) -> Option<PixelBox> {
+        // Projection rounds by some 1e-13 pixels; a pixel too many costs nothing.
+        const MARGIN: f64 = 1e-6;
+        let [width, height] = self.space.size;
+        let (low, high) = (low - MARGIN, high + MARGIN);
+        // Written so that NaN gives nothing.
+        let is_in = low.x <= f64::from(width - 1) && low.y <= f64::from(height - 1) && high.x >= 0.0 && high.y >= 0.0;
+        if !is_in {
+            return None;
+        }
+        let first = |x: f64| {
+            let below = x.max(0.0) as u32;
+            below + u32::from(f64::from(below) < x)
+        };
+        let last = |x: f64, count: u32| (x as u32).min(count - 1);
+        let outline = [first(low.x), last(high.x, width), first(low.y), last(high.y, height)];
+        (outline[0] <= outline[1] && outline[2] <= outline[3]).then_some(outline)
+    }
 }
 
 /// Whether no ray through a rectangle of the picture can meet a cell (perspective); right for cells behind the eye too.

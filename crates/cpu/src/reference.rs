@@ -13,7 +13,7 @@ use tetrascope_scene::{Plan, Progress, Stage};
 use tetrascope_view::LinearImage;
 
 use crate::error::{check_scalars, on_threads};
-use crate::geometry::{ClipCell, PixelBox, PixelSpace, ascending, is_outside_rectangle, pixel_box};
+use crate::geometry::{ClipCell, PixelBox, PixelSpace, Points, ascending, is_outside_rectangle};
 use crate::grid::{Bins, Tile, TileGrid};
 use crate::rendered::Stopwatch;
 use crate::{Counts, RenderError, Rendered};
@@ -49,7 +49,7 @@ struct Fragment {
 
 struct Job<'a> {
     cells: Vec<[u32; 4]>,
-    points: Vec<glam::DVec3>,
+    points: Points,
     scalars: &'a [f64],
     space: PixelSpace,
     grid: TileGrid,
@@ -68,14 +68,13 @@ fn render_here(
     let mut watch = Stopwatch::start();
     let frame = mesh.frame();
     let space = PixelSpace::new(&plan.view.in_frame(frame.origin, frame.scale), frame.scale);
-    let points: Vec<_> = mesh.positions().par_iter().map(|&p| space.transform(p)).collect();
+    let points = Points::new(space, mesh.positions());
     watch.lap(Stage::Transform);
 
     let cells: Vec<[u32; 4]> = mesh.tetrahedra().iter().map(|t| t.map(|v| v.0)).collect();
-    let corners = |cell: usize| cells[cell].map(|v| points[v as usize]);
     let seen: Vec<(u32, PixelBox)> = (0..cells.len())
         .into_par_iter()
-        .filter_map(|cell| Some((cell as u32, pixel_box(&corners(cell), &space)?)))
+        .filter_map(|cell| Some((cell as u32, points.pixel_box(cells[cell])?)))
         .collect();
     let grid = TileGrid::new(space.size, TILE_SIDE);
     let may_show = |item: usize, tile: Tile| {
@@ -83,7 +82,11 @@ fn render_here(
             let [u0, w0] = [PixelSpace::center(tile.x, space.size[0]), PixelSpace::center(tile.y, space.size[1])];
             let [u1, w1] = [u0 + f64::from(tile.width - 1), w0 + f64::from(tile.height - 1)];
             // Half a pixel of margin: rounding moves an outline by far less.
-            !is_outside_rectangle(&corners(seen[item].0 as usize), [u0 - 0.5, u1 + 0.5], [w0 - 0.5, w1 + 0.5])
+            !is_outside_rectangle(
+                &points.corners(cells[seen[item].0 as usize]),
+                [u0 - 0.5, u1 + 0.5],
+                [w0 - 0.5, w1 + 0.5],
+            )
         }
     };
     let bins = grid.bin(seen.iter().map(|&(_, outline)| outline), may_show);
@@ -125,7 +128,7 @@ impl Job<'_> {
         for &item in self.bins.of(index) {
             let (cell, [x0, x1, y0, y1]) = self.seen[item as usize];
             let (vertices, is_positive) = ascending(self.cells[cell as usize]);
-            let corners = vertices.map(|v| self.points[v as usize]);
+            let corners = self.points.corners(vertices);
             let scalars = vertices.map(|v| self.scalars[v as usize]);
             let Some(clip) = ClipCell::new(&corners, &scalars, is_positive) else { continue };
             for y in y0.max(tile.y)..=y1.min(tile.y + tile.height - 1) {

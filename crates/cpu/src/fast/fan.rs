@@ -133,27 +133,31 @@ impl Fan {
     /// The light of a block.
     #[inline(always)]
     pub(crate) fn shade<S: Simd>(&self, simd: S, sample: &Sample<S>) -> Light<S> {
-        let [column, row] = sample.place;
-        let plane = |p: &Plane| {
-            let at_row = f32x8::splat(simd, p[2]).mul_add(row, f32x8::splat(simd, p[0]));
-            f32x8::splat(simd, p[1]).mul_add(column, at_row)
-        };
         // The clamp is for rounding alone.
         let share = (sample.nearness * self.inverse_nearness).min(1.0);
         let opacity = share * self.opacity;
         let transmittance = f32x8::splat(simd, 1.0) - opacity;
-        let mut color = self.peak.map(|x| f32x8::splat(simd, x));
+        let [r, g, b] = self.peak;
+        let mut color = [f32x8::splat(simd, r), f32x8::splat(simd, g), f32x8::splat(simd, b)];
         if self.count == 0 {
-            return Light { rgb: color.map(|c| c * share), transmittance };
+            return Light { rgb: [color[0] * share, color[1] * share, color[2] * share], transmittance };
         }
         for triangle in 0..self.count {
-            let begins = plane(&self.spokes[triangle]).simd_ge(f32x8::splat(simd, 0.0));
-            let ends = plane(&self.spokes[triangle + 1]).simd_lt(f32x8::splat(simd, 0.0));
+            let begins = plane(simd, &self.spokes[triangle], sample).simd_ge(f32x8::splat(simd, 0.0));
+            let ends = plane(simd, &self.spokes[triangle + 1], sample).simd_lt(f32x8::splat(simd, 0.0));
             let inside = begins & ends;
             for (channel, over) in color.iter_mut().zip(&self.colors[triangle]) {
-                *channel = inside.select(plane(over).max(0.0), *channel);
+                *channel = inside.select(plane(simd, over, sample).max(0.0), *channel);
             }
         }
-        Light { rgb: color.map(|c| c * opacity), transmittance }
+        Light { rgb: [color[0] * opacity, color[1] * opacity, color[2] * opacity], transmittance }
     }
+}
+
+/// A plane's values in the lanes.
+#[inline(always)]
+fn plane<S: Simd>(simd: S, [at_reference, per_column, per_row]: &Plane, sample: &Sample<S>) -> f32x8<S> {
+    let [column, row] = sample.place;
+    let at_row = f32x8::splat(simd, *per_row).mul_add(row, f32x8::splat(simd, *at_reference));
+    f32x8::splat(simd, *per_column).mul_add(column, at_row)
 }

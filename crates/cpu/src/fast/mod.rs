@@ -31,7 +31,7 @@ use tetrascope_scene::{Plan, Progress, Stage};
 use tetrascope_view::LinearImage;
 
 use crate::error::{check_scalars, on_threads};
-use crate::geometry::{PixelSpace, ascending, pixel_box};
+use crate::geometry::{PixelSpace, Points, ascending};
 use crate::grid::{Bins, TileGrid};
 use crate::rendered::Stopwatch;
 use crate::{Counts, RenderError, Rendered};
@@ -43,6 +43,12 @@ const TILE_SIDE: u32 = 32;
 
 /// Cells that one task sets up: enough to hide its start, few enough to spread over the cores.
 const CHUNK: usize = 4096;
+
+/// The pixels that a cell may cover: first and last column, first and last row.
+type Outline = [u16; 4];
+
+/// The outline of a cell that cannot be seen.
+const NOWHERE: Outline = [1, 0, 1, 0];
 
 /// Draws one field on one mesh, again and again.
 ///
@@ -107,21 +113,22 @@ impl CpuRenderer {
 
         let view = plan.view.in_frame(self.frame.origin, self.frame.scale);
         let space = PixelSpace::new(&view, self.frame.scale);
-        let points: Vec<DVec3> = self.positions.par_iter().map(|&p| space.transform(p)).collect();
+        let points = Points::new(space, &self.positions);
         watch.lap(Stage::Transform);
 
-        let seen: Vec<CellId> = optics
-            .visible()
+        let outlines: Vec<Outline> = self
+            .tetrahedra
             .par_iter()
-            .copied()
-            .filter(|cell| pixel_box(&self.tetrahedra[cell.index()].map(|v| points[v.index()]), &space).is_some())
+            .map(|cell| points.pixel_box(cell.map(|v| v.0)).map_or(NOWHERE, |outline| outline.map(|p| p as u16)))
             .collect();
+        let seen: Vec<CellId> =
+            optics.visible().par_iter().copied().filter(|cell| outlines[cell.index()] != NOWHERE).collect();
         let cells = Cells { positions: &self.positions, tetrahedra: &self.tetrahedra };
         let order = plan.order.make().order(cells, view.viewpoint(), &seen);
         watch.lap(Stage::Order);
 
         let with_fans = plan.integration == Integration::Vertex;
-        let setup = record::SetUp { renderer: self, points: &points, space: &space, optics: &optics, with_fans };
+        let setup = record::SetUp { renderer: self, points: &points, outlines: &outlines, optics: &optics, with_fans };
         let records: Vec<Records> = order.front_to_back.par_chunks(CHUNK).map(|chunk| setup.records(chunk)).collect();
         watch.lap(Stage::SetUp);
 

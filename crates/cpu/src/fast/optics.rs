@@ -9,6 +9,8 @@ use tetrascope_mesh::{CellId, VertexId};
 pub(crate) struct Optics {
     transfer: TransferFunction,
     pub(crate) model: OpticalModel,
+    /// The pieces of the transfer function, as lines.
+    lines: Vec<Line>,
     /// One entry a cell.
     pieces: Vec<CellPieces>,
     /// The cells that add something to the picture, ascending.
@@ -33,6 +35,49 @@ pub(crate) struct LocalPiece {
     pub(crate) extinction: [f32; 2],
     /// Color at `start`, and its slope.
     pub(crate) color: [[f32; 3]; 2],
+}
+
+/// A piece as lines through an anchor, f64.
+#[derive(Clone, Copy, Debug)]
+struct Line {
+    start: f64,
+    end: f64,
+    anchor: f64,
+    /// Extinction at the anchor, and its slope.
+    extinction: [f64; 2],
+    /// Color at the anchor, and its slope.
+    color: [[f64; 3]; 2],
+}
+
+impl Line {
+    fn new(piece: &Piece) -> Self {
+        let width = piece.end - piece.start;
+        let slope = |[low, high]: [f64; 2]| if width.is_finite() { (high - low) / width } else { 0.0 };
+        // Beyond the ends the function is constant, and any anchor will do.
+        let anchor = if piece.start.is_finite() { piece.start } else { 0.0 };
+        let [low, high] = piece.color;
+        Self {
+            start: piece.start,
+            end: piece.end,
+            anchor,
+            extinction: [piece.extinction[0], slope(piece.extinction)],
+            color: [low, [0, 1, 2].map(|c| slope([low[c], high[c]]))],
+        }
+    }
+
+    /// As a cell sees it from `start` to `end`, scalars that count from `reference`.
+    #[inline]
+    fn localize(&self, reference: f64, [start, end]: [f64; 2], length: f64, color_factor: f64) -> LocalPiece {
+        let distance = (start + reference) - self.anchor;
+        let value = |at: f64, slope: f64, factor: f64| finite((at + slope * distance).max(0.0) * factor);
+        let [at, slope] = self.color;
+        LocalPiece {
+            start: start as f32,
+            end: end as f32,
+            extinction: [value(self.extinction[0], self.extinction[1], length), finite(self.extinction[1] * length)],
+            color: [[0, 1, 2].map(|c| value(at[c], slope[c], color_factor)), slope.map(|s| finite(s * color_factor))],
+        }
+    }
 }
 
 impl Optics {
@@ -64,7 +109,8 @@ impl Optics {
             .filter(|&cell| is_visible(&tetrahedra[cell as usize]))
             .map(CellId)
             .collect();
-        Self { transfer: transfer.clone(), model, pieces, visible }
+        let lines = transfer.pieces().iter().map(Line::new).collect();
+        Self { transfer: transfer.clone(), model, lines, pieces, visible }
     }
 
     /// Whether these are the optics of that transfer function.
@@ -99,32 +145,19 @@ impl Optics {
     ) {
         local.clear();
         let first = pieces.first as usize;
-        let all = &self.transfer.pieces()[first..first + pieces.count as usize];
+        let all = &self.lines[first..first + pieces.count as usize];
         let color_factor = if self.model.color_is_per_length() { length } else { 1.0 };
-        for (index, piece) in all.iter().enumerate() {
+        for (index, line) in all.iter().enumerate() {
             // The first and the last reach the ends of the range, so that rounding leaves no scalar without a piece.
-            let start = if index == 0 { f64::from(range[0]) } else { piece.start - reference };
-            let end = if index + 1 == all.len() { f64::from(range[1]) } else { piece.end - reference };
-            local.push(local_piece(piece, reference, [start, end], length, color_factor));
+            let start = if index == 0 { f64::from(range[0]) } else { line.start - reference };
+            let end = if index + 1 == all.len() { f64::from(range[1]) } else { line.end - reference };
+            local.push(line.localize(reference, [start, end], length, color_factor));
         }
     }
 }
 
-fn local_piece(piece: &Piece, reference: f64, [start, end]: [f64; 2], length: f64, color_factor: f64) -> LocalPiece {
-    let width = piece.end - piece.start;
-    let slope = |[low, high]: [f64; 2]| if width.is_finite() { (high - low) / width } else { 0.0 };
-    let extinction = piece.extinction_at(start + reference);
-    let color = piece.color_at(start + reference);
-    let color_slope: [f64; 3] = std::array::from_fn(|c| slope([piece.color[0][c], piece.color[1][c]]));
-    LocalPiece {
-        start: start as f32,
-        end: end as f32,
-        extinction: [finite(extinction * length), finite(slope(piece.extinction) * length)],
-        color: [color.map(|c| finite(c * color_factor)), color_slope.map(|c| finite(c * color_factor))],
-    }
-}
-
 /// To f32 without becoming infinite: times zero, infinity would be NaN.
+#[inline]
 fn finite(x: f64) -> f32 {
     x.clamp(f64::from(f32::MIN), f64::from(f32::MAX)) as f32
 }

@@ -12,10 +12,10 @@ use glam::{DVec2, DVec3};
 use tetrascope_classify::{DepthPlane, cut_at_depth};
 use tetrascope_mesh::CellId;
 
-use super::CpuRenderer;
 use super::fan::{Fan, FanSetUp};
 use super::optics::{CellPieces, Optics};
-use crate::geometry::{ClipCell, PixelBox, PixelSpace, is_outside_rectangle, pixel_box};
+use super::{CpuRenderer, Outline};
+use crate::geometry::{ClipCell, PixelBox, PixelSpace, Points, is_outside_rectangle};
 use crate::grid::Tile;
 
 /// A face counts as steep when its plane, over the cell's pixels, runs through this many times the cell's own range of nearness: then
@@ -43,7 +43,7 @@ pub(crate) struct CellRecord {
     pub(crate) length: f64,
     /// The reference pixel: column and row.
     pub(crate) pixel: [u16; 2],
-    outline: [u16; 4],
+    outline: Outline,
     pub(crate) pieces: CellPieces,
     /// How many of the planes are of entry faces, 1 to 3; 0 for a cell to be drawn carefully.
     pub(crate) entry_count: u32,
@@ -91,9 +91,9 @@ impl Records {
 /// What set-up needs to know.
 pub(crate) struct SetUp<'a> {
     pub(crate) renderer: &'a CpuRenderer,
-    /// All points in pixel space.
-    pub(crate) points: &'a [DVec3],
-    pub(crate) space: &'a PixelSpace,
+    pub(crate) points: &'a Points,
+    /// One a cell of the mesh.
+    pub(crate) outlines: &'a [Outline],
     pub(crate) optics: &'a Optics,
     /// Whether the integration is defined on fans of triangles.
     pub(crate) with_fans: bool,
@@ -108,14 +108,15 @@ impl SetUp<'_> {
         let mut records = Records { cells: Vec::with_capacity(cells.len()), ..Records::default() };
         for &cell in cells {
             let vertices = self.renderer.tetrahedra[cell.index()];
-            let corners = vertices.map(|v| self.points[v.index()]);
+            let corners = self.points.corners(vertices.map(|v| v.0));
+            let outline = self.outlines[cell.index()];
             let scalars = vertices.map(|v| self.renderer.scalars[v.index()]);
             let is_positive = self.renderer.is_positive[cell.index()];
             let pieces = self.optics.pieces_of(cell);
             if self.with_fans {
-                self.add_with_fan(&corners, &scalars, is_positive, pieces, &mut records);
+                self.add_with_fan(&corners, &scalars, is_positive, outline, pieces, &mut records);
             } else {
-                self.add(&corners, &scalars, is_positive, pieces, &mut records);
+                self.add(&corners, &scalars, is_positive, outline, pieces, &mut records);
             }
         }
         records
@@ -127,10 +128,10 @@ impl SetUp<'_> {
         corners: &[DVec3; 4],
         scalars: &[f64; 4],
         is_positive: bool,
+        outline: Outline,
         pieces: CellPieces,
         records: &mut Records,
     ) {
-        let Some(outline) = pixel_box(corners, self.space) else { return };
         let record = self.record(corners, scalars, is_positive, outline, pieces).or_else(|| {
             let clip = ClipCell::new(corners, scalars, is_positive)?;
             records.careful.push(CarefulCell { corners: *corners, clip });
@@ -145,20 +146,25 @@ impl SetUp<'_> {
         corners: &[DVec3; 4],
         scalars: &[f64; 4],
         is_positive: bool,
+        outline: Outline,
         pieces: CellPieces,
         records: &mut Records,
     ) {
-        let fans = FanSetUp { space: self.space, transfer: self.optics.transfer(), model: self.optics.model };
+        let fans = FanSetUp { space: &self.points.space, transfer: self.optics.transfer(), model: self.optics.model };
         let mut add = |corners: &[DVec3; 4], scalars: &[f64; 4], is_positive: bool| {
-            self.add(corners, scalars, is_positive, pieces, records);
+            self.add(corners, scalars, is_positive, outline, pieces, records);
             if let Some(record) = records.cells.get(records.fans.len()) {
-                let [u, w] = [0, 1].map(|i| PixelSpace::center(u32::from(record.pixel[i]), self.space.size[i]));
-                let depth = if self.space.is_perspective { record.length / self.space.world_per_depth } else { 1.0 };
+                let [u, w] = [0, 1].map(|i| PixelSpace::center(u32::from(record.pixel[i]), self.points.space.size[i]));
+                let depth = if self.points.space.is_perspective {
+                    record.length / self.points.space.world_per_depth
+                } else {
+                    1.0
+                };
                 records.fans.push(fans.fan(corners, scalars, is_positive, DVec2::new(u, w), depth));
             }
         };
         let farthest = corners.iter().fold(f64::NEG_INFINITY, |m, p| m.max(p.z));
-        let depth = if self.space.is_perspective { FAN_NEAR * farthest } else { 0.0 };
+        let depth = if self.points.space.is_perspective { FAN_NEAR * farthest } else { 0.0 };
         if corners.iter().all(|p| p.z >= depth) {
             add(corners, scalars, is_positive);
             return;
@@ -181,11 +187,11 @@ impl SetUp<'_> {
         corners: &[DVec3; 4],
         scalars: &[f64; 4],
         is_positive: bool,
-        outline: PixelBox,
+        outline: Outline,
         pieces: CellPieces,
     ) -> Option<CellRecord> {
         let [a, b, c, d] = *corners;
-        let is_perspective = self.space.is_perspective;
+        let is_perspective = self.points.space.is_perspective;
         let nearest = a.z.min(b.z).min(c.z).min(d.z);
         let farthest = a.z.max(b.z).max(c.z).max(d.z);
         if nearest <= if is_perspective { NEAR * farthest } else { 0.0 } {
@@ -203,10 +209,12 @@ impl SetUp<'_> {
             return None;
         }
 
-        let [x0, x1, y0, y1] = outline;
+        let [x0, x1, y0, y1] = outline.map(u32::from);
         let pixel = [(x0 + x1) / 2, (y0 + y1) / 2];
-        let [u, w] =
-            [PixelSpace::center(pixel[0], self.space.size[0]), PixelSpace::center(pixel[1], self.space.size[1])];
+        let [u, w] = [
+            PixelSpace::center(pixel[0], self.points.space.size[0]),
+            PixelSpace::center(pixel[1], self.points.space.size[1]),
+        ];
         let depth = (a.z + b.z + c.z + d.z) * 0.25;
         let (reference, across) =
             if is_perspective { (DVec3::new(u, w, 1.0) * depth, depth) } else { (DVec3::new(u, w, depth), 1.0) };
@@ -261,16 +269,16 @@ impl SetUp<'_> {
             nearness_range: nearness_range.map(|x| x as f32),
             scalar_range: [(low - scalar_reference) as f32, (high - scalar_reference) as f32],
             scalar_reference,
-            length: self.space.world_per_depth * across,
+            length: self.points.space.world_per_depth * across,
             pixel: pixel.map(|p| p as u16),
-            outline: outline.map(|p| p as u16),
+            outline,
             pieces,
             entry_count: entry as u32,
             careful: 0,
         })
     }
 
-    fn careful_record(&self, scalars: &[f64; 4], outline: PixelBox, pieces: CellPieces, careful: usize) -> CellRecord {
+    fn careful_record(&self, scalars: &[f64; 4], outline: Outline, pieces: CellPieces, careful: usize) -> CellRecord {
         let low = scalars.iter().fold(f64::INFINITY, |m, &s| m.min(s));
         let high = scalars.iter().fold(f64::NEG_INFINITY, |m, &s| m.max(s));
         CellRecord {
@@ -279,9 +287,9 @@ impl SetUp<'_> {
             nearness_range: [0.0; 2],
             scalar_range: [0.0, (high - low) as f32],
             scalar_reference: low,
-            length: self.space.world_per_depth,
-            pixel: [(outline[0] + outline[1]) / 2, (outline[2] + outline[3]) / 2].map(|p| p as u16),
-            outline: outline.map(|p| p as u16),
+            length: self.points.space.world_per_depth,
+            pixel: [outline[0].midpoint(outline[1]), outline[2].midpoint(outline[3])],
+            outline,
             pieces,
             entry_count: 0,
             careful: careful as u32,

@@ -55,9 +55,19 @@ fn mix<S: Simd>(
     // The color is a + b s, so that two sums serve all three channels.
     let sum = front_weight + back_weight;
     let moment = front_weight.mul_add(front, back_weight * back);
-    std::array::from_fn(|c| {
-        f32x8::splat(simd, piece.color[1][c]).mul_add(moment, f32x8::splat(simd, piece.color[0][c]) * sum).max(0.0)
-    })
+    // Loops and functions, not closures: those may stay calls, compiled without the vector instructions.
+    let mut rgb = [sum; 3];
+    for c in 0..3 {
+        let constant = f32x8::splat(simd, piece.color[0][c]) * sum;
+        rgb[c] = f32x8::splat(simd, piece.color[1][c]).mul_add(moment, constant).max(0.0);
+    }
+    rgb
+}
+
+/// All three channels times one number.
+#[inline(always)]
+fn times<S: Simd>([r, g, b]: [f32x8<S>; 3], factor: f32x8<S>) -> [f32x8<S>; 3] {
+    [r * factor, g * factor, b * factor]
 }
 
 impl Model for DensityEmitter {
@@ -76,7 +86,7 @@ impl Model for DensityEmitter {
     #[inline(always)]
     fn constant<S: Simd>(simd: S, extinction: f32x8<S>, color: [f32x8<S>; 3], length: f32x8<S>) -> Light<S> {
         let (opacity, transmittance) = opacity_transmittance(simd, extinction * length);
-        Light { rgb: color.map(|c| c * opacity), transmittance }
+        Light { rgb: times(color, opacity), transmittance }
     }
 }
 
@@ -98,7 +108,7 @@ impl Model for Emitter {
         let tau = extinction * length;
         let weights = emitter_weights(simd, tau, tau);
         let weight = (weights.front + weights.back) * length;
-        Light { rgb: color.map(|c| c * weight), transmittance: weights.transmittance }
+        Light { rgb: times(color, weight), transmittance: weights.transmittance }
     }
 }
 
@@ -130,7 +140,7 @@ impl Model for Emission {
 
     #[inline(always)]
     fn constant<S: Simd>(simd: S, _: f32x8<S>, color: [f32x8<S>; 3], length: f32x8<S>) -> Light<S> {
-        Light { rgb: color.map(|c| c * length), transmittance: f32x8::splat(simd, 1.0) }
+        Light { rgb: times(color, length), transmittance: f32x8::splat(simd, 1.0) }
     }
 }
 
@@ -198,6 +208,18 @@ fn cut<S: Simd, M: Model>(simd: S, pieces: &[LocalPiece], sample: &Sample<S>) ->
     light
 }
 
+/// Extinction and color of a piece at a scalar.
+#[inline(always)]
+fn value<S: Simd>(simd: S, piece: &LocalPiece, scalar: f32x8<S>) -> (f32x8<S>, [f32x8<S>; 3]) {
+    let distance = scalar - f32x8::splat(simd, piece.start);
+    let [start, slope] = piece.color;
+    let mut color = [distance; 3];
+    for c in 0..3 {
+        color[c] = at(simd, [start[c], slope[c]], distance);
+    }
+    (at(simd, piece.extinction, distance), color)
+}
+
 /// The transfer function at the mean of the two scalars (Marroquim et al. 2006, section 2 and equation 1).
 pub(crate) struct Average;
 
@@ -205,17 +227,11 @@ impl Method for Average {
     #[inline(always)]
     fn shade<S: Simd, M: Model>(simd: S, cell: CellOptics<'_>, sample: &Sample<S>) -> Light<S> {
         let mean = (sample.front + sample.back) * 0.5;
-        let value = |piece: &LocalPiece, scalar: f32x8<S>| {
-            let distance = scalar - f32x8::splat(simd, piece.start);
-            let color: [f32x8<S>; 3] =
-                std::array::from_fn(|c| at(simd, [piece.color[0][c], piece.color[1][c]], distance));
-            (at(simd, piece.extinction, distance), color)
-        };
-        let (mut extinction, mut color) = value(&cell.pieces[0], mean);
+        let (mut extinction, mut color) = value(simd, &cell.pieces[0], mean);
         for piece in &cell.pieces[1..] {
             let is_here = mean.simd_ge(f32x8::splat(simd, piece.start));
             if is_here.any_true() {
-                let (rho, kappa) = value(piece, mean);
+                let (rho, kappa) = value(simd, piece, mean);
                 extinction = is_here.select(rho, extinction);
                 for c in 0..3 {
                     color[c] = is_here.select(kappa[c], color[c]);

@@ -112,9 +112,10 @@ proptest! {
         };
         let space = PixelSpace::new(&View::new(&camera, 23, 17).unwrap(), 1.0);
         prop_assume!(volume(corners) > 1e-3);
-        let corners = corners.map(|c| space.transform(c));
+        let points = Points::new(space, &corners);
+        let outline = points.pixel_box([0, 1, 2, 3]);
+        let corners = points.corners([0, 1, 2, 3]);
         let cell = clip(corners, [0.0; 4]).unwrap();
-        let outline = pixel_box(&corners, &space);
         for y in 0..17 {
             for x in 0..23 {
                 let (u, w) = (PixelSpace::center(x, 23), PixelSpace::center(y, 17));
