@@ -1,7 +1,9 @@
 //! Meshes made of random numbers.
 
 use glam::DVec3;
-use tetrascope::mesh::{Cells, DataArray, Dataset, Decomposition, StructuredBlock, decompose};
+use tetrascope::mesh::{
+    CellKind, Cells, DataArray, Dataset, Decomposition, StructuredBlock, TetMesh, UnstructuredCells, decompose,
+};
 
 /// A small generator of random numbers, so that a failing mesh is named by its seed.
 #[derive(Clone, Debug)]
@@ -61,5 +63,119 @@ pub fn bent_block_dataset(n: usize, jitter: f64, seed: u64) -> Dataset {
         cells: Cells::Structured(vec![StructuredBlock { dims: [side; 3], first_point: 0, hidden_points: Vec::new() }]),
         point_arrays: Vec::<DataArray>::new(),
         cell_arrays: Vec::new(),
+    }
+}
+
+/// A regular grid of cubes, cut as a structured block, with its lowest corner at `origin`.
+pub fn grid(cells: [usize; 3], origin: DVec3, cell: f64) -> Decomposition {
+    let dims = cells.map(|n| n + 1);
+    let mut points = Vec::new();
+    for k in 0..dims[2] {
+        for j in 0..dims[1] {
+            points.extend((0..dims[0]).map(|i| origin + DVec3::new(i as f64, j as f64, k as f64) * cell));
+        }
+    }
+    let block = StructuredBlock { dims, first_point: 0, hidden_points: Vec::new() };
+    decompose(&Dataset { points, cells: Cells::Structured(vec![block]), ..Dataset::default() })
+        .expect("a grid has cells")
+}
+
+/// The same grid as unstructured hexahedra: six tetrahedra each.
+pub fn hexahedra(cells: [usize; 3], origin: DVec3, cell: f64) -> Decomposition {
+    let dims = cells.map(|n| n + 1);
+    let at = |i: usize, j: usize, k: usize| (i + dims[0] * (j + dims[1] * k)) as u32;
+    let (mut points, mut connectivity) = (Vec::new(), Vec::new());
+    for k in 0..dims[2] {
+        for j in 0..dims[1] {
+            points.extend((0..dims[0]).map(|i| origin + DVec3::new(i as f64, j as f64, k as f64) * cell));
+        }
+    }
+    for k in 0..cells[2] {
+        for j in 0..cells[1] {
+            for i in 0..cells[0] {
+                for [x, y, z] in
+                    [[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0], [0, 0, 1], [1, 0, 1], [1, 1, 1], [0, 1, 1]]
+                {
+                    connectivity.push(at(i + x, j + y, k + z));
+                }
+            }
+        }
+    }
+    let count = cells.iter().product();
+    let cells = Cells::Unstructured(UnstructuredCells {
+        kinds: vec![CellKind::Hexahedron; count],
+        offsets: (0..=count).map(|c| 8 * c).collect(),
+        connectivity,
+        polyhedra: Vec::new(),
+    });
+    decompose(&Dataset { points, cells, ..Dataset::default() }).expect("a grid has cells")
+}
+
+/// Tetrahedra that can be cut, turned and renumbered: world coordinates, point indices, one scalar a point.
+#[derive(Clone, Debug, Default)]
+pub struct Tets {
+    /// World coordinates.
+    pub points: Vec<DVec3>,
+    /// Four points each, either way round.
+    pub cells: Vec<[u32; 4]>,
+    /// One a point.
+    pub scalars: Vec<f64>,
+}
+
+impl Tets {
+    /// The cells of a mesh, with a smooth field that has its extremes inside and a little of chance.
+    pub fn of(mesh: &TetMesh, random: &mut Random) -> Self {
+        let points: Vec<DVec3> = mesh.positions().iter().map(|&p| mesh.frame().to_world(p)).collect();
+        let field = |p: &DVec3| (2.1 * p.x + 0.3).sin() * (1.7 * p.y).cos() + 0.5 * (2.3 * p.z).sin();
+        let local: Vec<DVec3> = mesh.positions().to_vec();
+        let scalars = local.iter().map(|p| field(p) + random.between(-0.2, 0.2)).collect();
+        let cells = mesh.tetrahedra().iter().map(|t| t.map(|v| v.0)).collect();
+        Self { points, cells, scalars }
+    }
+
+    /// A bent block of `n` cells a side with a field of chance, named by its seed.
+    pub fn block(n: usize, seed: u64) -> Self {
+        Self::of(&bent_block(n, 0.12, seed).mesh, &mut Random::new(seed ^ 0xF1E1D))
+    }
+
+    /// The mesh of them; all must have volume.
+    ///
+    /// # Panics
+    /// If a cell has none.
+    pub fn mesh(&self) -> TetMesh {
+        let made = TetMesh::from_tetrahedra(&self.points, &self.cells).expect("there are cells");
+        assert_eq!(made.mesh.tetrahedra().len(), self.cells.len(), "cells without volume");
+        made.mesh
+    }
+
+    /// Lowest and highest scalar.
+    pub fn range(&self) -> (f64, f64) {
+        self.scalars.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), &s| (l.min(s), h.max(s)))
+    }
+
+    fn add_point(&mut self, parents: &[u32], shares: &[f64]) -> u32 {
+        let mean =
+            |value: &dyn Fn(u32) -> DVec3| parents.iter().zip(shares).map(|(&p, &w)| value(p) * w).sum::<DVec3>();
+        let point = mean(&|p| self.points[p as usize]);
+        let scalar = mean(&|p| DVec3::splat(self.scalars[p as usize])).x;
+        self.points.push(point);
+        self.scalars.push(scalar);
+        self.points.len() as u32 - 1
+    }
+
+    /// Splits all cells that have all of `parents` as corners at a point of those: shares are positive and add up to 1.
+    ///
+    /// Two parents split an edge, three a face, four a cell. The scalar there is the interpolated one.
+    pub fn split(&mut self, parents: &[u32], shares: &[f64]) {
+        let new = self.add_point(parents, shares);
+        let mut cells = Vec::with_capacity(self.cells.len() + 8);
+        for &cell in &self.cells {
+            if parents.iter().all(|p| cell.contains(p)) {
+                cells.extend(parents.iter().map(|p| cell.map(|v| if v == *p { new } else { v })));
+            } else {
+                cells.push(cell);
+            }
+        }
+        self.cells = cells;
     }
 }
