@@ -2,7 +2,7 @@
 
 use std::collections::HashMap;
 
-use glam::DVec3;
+use glam::{DVec2, DVec3};
 use tetrascope::mesh::TetMesh;
 use tetrascope::view::{Ray, View};
 
@@ -33,9 +33,11 @@ pub fn world(mesh: &TetMesh, point: u32) -> DVec3 {
     mesh.frame().to_world(mesh.positions()[point as usize])
 }
 
-/// How near to an edge of a triangle, relative to the triangle's size, a ray counts as meeting the edge: far above the
-/// rounding here and in the renderers (some 1e-12), and still a strip that hardly any pixel falls into.
-const AT_EDGE: f64 = 1e-7;
+/// How near to an edge of a triangle, relative to the triangle, a ray counts as meeting the edge: far above rounding here and
+/// in the renderers (some 1e-12), and still a strip that hardly any pixel falls into.
+const AT_EDGE: f64 = 1e-9;
+/// The same relative to the distance of the ray's start: some ulps.
+const ROUNDING: f64 = 4e-15;
 
 /// Length of the part of a ray (from its start on) inside a closed boundary: where it comes out counts, where it goes in
 /// counts against.
@@ -43,41 +45,46 @@ const AT_EDGE: f64 = 1e-7;
 /// `None` if it passes so near an edge of a triangle that rounding decides on which side, or runs in a triangle's plane.
 /// The start may lie on the boundary: triangles through it count nothing.
 pub fn chord(boundary: &[[DVec3; 3]], ray: &Ray) -> Option<f64> {
-    let length = ray.direction.length();
+    let forward = ray.direction.normalize();
+    let (right, up) = forward.any_orthonormal_pair();
     let mut sum = 0.0;
     for triangle in boundary {
-        let [a, b, c] = *triangle;
-        let normal = (b - a).cross(c - a);
-        let speed = normal.dot(ray.direction);
-        let size = (b - a).length().max((c - a).length()).max((c - b).length());
-        // Measured from the point of the ray beside the triangle, so that a far eye costs no digits.
-        let beside = (a - ray.origin).dot(ray.direction) / (length * length);
-        let origin = ray.origin + beside * ray.direction;
-        let t = beside + normal.dot(a - origin) / speed;
-        let side = |p: DVec3, q: DVec3| ray.direction.dot((p - origin).cross(q - origin));
-        let sides = [side(a, b), side(b, c), side(c, a)];
-        let total: f64 = sides.iter().map(|s| s.abs()).sum();
-        if total <= AT_EDGE * length * size * size {
-            // Edge-on, and the ray is in its plane near the triangle.
-            if beside * length > -2.0 * size {
-                return None;
-            }
+        let from_start = triangle.map(|p| p - ray.origin);
+        let size = (triangle[1] - triangle[0]).length().max((triangle[2] - triangle[0]).length());
+        // Before the ray, which is the origin; `right`, `up`, `forward` is right-handed, so that a triangle that runs
+        // counterclockwise has its outer side ahead.
+        let [a, b, c] = from_start.map(|p| DVec2::new(right.dot(p), up.dot(p)));
+        let depths = from_start.map(|p| forward.dot(p));
+        if depths.iter().all(|&d| d <= 1e-9 * size) {
             continue;
         }
-        if t.is_nan() || t * length <= 1e-9 * size {
+        let reach = from_start.iter().fold(0.0_f64, |m, p| m.max(p.length()));
+        let rounding = ROUNDING * reach;
+        let (low, high) = (a.min(b).min(c) - rounding, a.max(b).max(c) + rounding);
+        if low.x > 0.0 || low.y > 0.0 || high.x < 0.0 || high.y < 0.0 {
             continue;
         }
-        let limit = AT_EDGE * total;
-        if sides.iter().any(|s| s.abs() < limit)
-            && (sides.iter().all(|&s| s >= -limit) || sides.iter().all(|&s| s <= limit))
-        {
+        let sides = [b.perp_dot(c), c.perp_dot(a), a.perp_dot(b)];
+        let total: f64 = sides.iter().sum();
+        let limit = AT_EDGE * total.abs() + rounding * (b - a).length().max((c - a).length());
+        if total.abs() <= limit {
+            // Edge-on, and the ray may be in it.
             return None;
         }
-        if sides.iter().all(|&s| s >= 0.0) || sides.iter().all(|&s| s <= 0.0) {
-            sum += t * speed.signum();
+        let turn = total.signum();
+        if sides.iter().any(|s| s * turn < -limit) {
+            continue;
         }
+        let depth = (sides[0] * depths[0] + sides[1] * depths[1] + sides[2] * depths[2]) / total;
+        if depth <= 1e-9 * size {
+            continue;
+        }
+        if sides.iter().any(|s| s * turn <= limit) {
+            return None;
+        }
+        sum += depth * turn;
     }
-    Some(sum * length)
+    Some(sum)
 }
 
 /// The chord of every pixel's ray, row after row.

@@ -3,4 +3,5 @@
 pub mod chords;
 pub mod compare;
 pub mod meshes;
+pub mod pictures;
 pub mod shared;

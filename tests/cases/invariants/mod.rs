@@ -4,6 +4,7 @@ mod chords;
 mod color;
 mod degenerate;
 mod determinism;
+mod extremes;
 mod grids;
 mod models;
 mod numbering;
