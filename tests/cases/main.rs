@@ -1,5 +1,6 @@
 //! Tests that cross crates, one binary.
 
+mod golden;
 mod hostile;
 mod invariants;
 mod real_meshes;

@@ -2,6 +2,7 @@
 
 pub mod chords;
 pub mod compare;
+pub mod golden;
 pub mod meshes;
 pub mod pictures;
 pub mod shared;

@@ -142,7 +142,9 @@ fn print(volume: &Volume, args: &Args, threads: usize, settings: Vec<Setting>) {
         args.frames,
         size = args.size,
     );
-    println!("median ms (fastest to slowest) | share of floor | M tet/s | M fragments/s | fragments, M | careful cells | share of each stage");
+    println!(
+        "median ms (fastest to slowest) | share of floor | M tet/s | M fragments/s | fragments, M | careful cells | share of each stage"
+    );
     for mut setting in settings {
         setting.times.sort();
         let ms = |d: Duration| d.as_secs_f64() * 1e3;

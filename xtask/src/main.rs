@@ -1,2 +1,50 @@
-//! Automation.
-fn main() {}
+//! Automation: `cargo xtask` without more lists what there is.
+#![expect(clippy::print_stdout, clippy::print_stderr, reason = "a program speaks to its user")]
+
+mod bench;
+mod ci;
+mod golden;
+mod tidy;
+
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+
+use clap::Parser;
+
+/// Anything that stops a task.
+type Failure = Box<dyn std::error::Error>;
+
+#[derive(Debug, Parser)]
+#[command(name = "cargo xtask", bin_name = "cargo xtask", about = "Automation of the workspace")]
+enum Task {
+    /// Everything that is checked before a change is taken
+    Ci(ci::Args),
+    /// Whether what the texts promise is so
+    Tidy,
+    /// Golden images: compare, renew, look at
+    Golden(golden::Args),
+    /// Milliseconds a frame of the CPU renderer
+    Bench(bench::Args),
+}
+
+fn main() -> ExitCode {
+    let done = match Task::parse() {
+        Task::Ci(args) => ci::run(&args),
+        Task::Tidy => tidy::run(&root()),
+        Task::Golden(args) => golden::run(&args),
+        Task::Bench(args) => bench::run(&args),
+    };
+    match done {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(problem) => {
+            eprintln!("error: {problem}");
+            ExitCode::FAILURE
+        }
+    }
+}
+
+/// The workspace's root, where it was when this program was built.
+fn root() -> PathBuf {
+    let here = Path::new(env!("CARGO_MANIFEST_DIR"));
+    here.parent().unwrap_or(here).to_owned()
+}
