@@ -1,4 +1,4 @@
-//! Classification by the signs of the face planes (Shirley and Tuchman 1990, section 2.2 and Figure 3).
+//! Classification by the signs of the face planes ([Shirley 1990], section 2.2 and figure 3).
 
 use crate::fan::{Fan, FanVertex};
 
@@ -45,7 +45,7 @@ impl Sign {
     }
 }
 
-/// How a cell's silhouette looks; names of Shirley and Tuchman 1990, Figure 3.
+/// How a cell's silhouette looks; names of [Shirley 1990], figure 3.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum ProjectionClass {
     /// A triangle with the nearest corner inside: three faces seen, one not.

@@ -58,7 +58,7 @@ fn sign_along([p, q, r]: [DVec3; 3], direction: DVec3) -> Sign {
     sum.sign()
 }
 
-/// An exact sum of floats: nonoverlapping parts of ascending magnitude, none of them 0 (Shewchuk 1997, grow-expansion).
+/// An exact sum of floats: nonoverlapping parts of ascending magnitude, none of them 0 ([Shewchuk 1997], grow-expansion).
 struct Expansion {
     /// 18 products of three factors have four parts each.
     parts: [f64; 72],

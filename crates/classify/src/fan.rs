@@ -11,7 +11,7 @@ pub enum FanVertex {
 
 /// A triangle fan of at most six vertices: the thick vertex, then the silhouette's corners around it.
 ///
-/// The thick vertex comes first in every class (as in Marroquim 2006, Figure 6); in classes 1, 3 and 4 it covers a corner
+/// The thick vertex comes first in every class (as in [Marroquim 2006], figure 6); in classes 1, 3 and 4 it covers a corner
 /// on the screen. Classes 1 and 2 close the ring by repeating its first corner. Each triangle lies between one front face
 /// and one back face of the cell.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]

@@ -1,9 +1,9 @@
 //! Projected Tetrahedra: silhouette class, thick vertex and triangle fan of one tetrahedron in one view.
 //!
 //! A viewpoint makes a signed volume with each face of a cell ([`SignedVolumes`]). Their four signs say which faces look at
-//! the eye: they *are* the classification by planes ([`by_planes`], Shirley and Tuchman 1990), and for projected points
-//! they are the four cross products of the classification by a table of 81 entries ([`TRUTH_TABLE`], Marroquim et al.
-//! 2006). Their values weight the corners: the positive ones give the near end of the thickest chord, the negative ones the
+//! the eye: they *are* the classification by planes ([`by_planes`], [Shirley 1990]), and for projected points
+//! they are the four cross products of the classification by a table of 81 entries ([`TRUTH_TABLE`],
+//! [Marroquim 2006]). Their values weight the corners: the positive ones give the near end of the thickest chord, the negative ones the
 //! far end ([`ThickVertex`]), in every class by the same formula. The silhouette is drawn as a [`Fan`] of one to four
 //! triangles around that thick vertex.
 //!

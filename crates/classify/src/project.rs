@@ -52,7 +52,7 @@ pub struct Projected {
     pub volumes: SignedVolumes,
 }
 
-/// What is linear along an edge of a fan in an orthographic view: the attributes of Marroquim 2006, Figure 7.
+/// What is linear along an edge of a fan in an orthographic view: the attributes of [Marroquim 2006], figure 7.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FanAttributes {
     /// Field where the ray enters.

@@ -1,4 +1,4 @@
-//! Classification by four cross products of projected points (Marroquim et al. 2006, section 3.1 and Figure 3).
+//! Classification by four cross products of projected points ([Marroquim 2006], section 3.1 and figure 3).
 //!
 //! The paper types in a table of 81 entries. Here it is generated. For projected points with their affine dependence
 //! `Σ a[m] = 0`, `Σ a[m] p[m] = 0`, the tests are its coefficients: with each test's sign t in −1, 0, 1,

@@ -7,7 +7,7 @@ use crate::{OpticalModel, RgbaAssoc, Segment, TransferFunction, homogeneous};
 /// Exact where the transfer function is constant over the segment's scalars. Else the error has no bound but 1: a peak
 /// between the ends is missed or taken for the whole.
 ///
-/// Source: Marroquim, Maximo, Farias and Esperança 2006, eq. (1), for the density emitter; the other models are the
+/// Source: [Marroquim 2006], eq. (1), for the density emitter; the other models are the
 /// same idea, the integral of a homogeneous segment.
 pub fn average(transfer: &TransferFunction, model: OpticalModel, segment: &Segment) -> RgbaAssoc {
     // Halves first: the sum of two scalars near the largest float would overflow.

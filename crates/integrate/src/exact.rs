@@ -11,7 +11,7 @@ use crate::{OpticalModel, RgbaAssoc, Segment, TransferFunction};
 /// A segment whose ends have one scalar takes the transfer function's value there, on a step the second; one that
 /// begins or ends on a step sees only the side that it is on. The cost is one pair of special functions per piece.
 ///
-/// Source: Williams, Max and Stein 1998 for the cut at control points; for the pieces see [`crate::weights`].
+/// Source: [Williams 1998] for the cut at control points; for the pieces see [`crate::weights`].
 pub fn exact(transfer: &TransferFunction, model: OpticalModel, segment: &Segment) -> RgbaAssoc {
     let Segment { scalar_front, scalar_back, chord_length } = *segment;
     let mut light = Accumulated::NOTHING;

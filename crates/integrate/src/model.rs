@@ -9,8 +9,8 @@ use crate::NameError;
 ///
 /// `rho` is the extinction, `kappa` the color of the transfer function, both functions of the scalar.
 ///
-/// Sources: Williams and Max 1992 for [`OpticalModel::DensityEmitter`], Wilhelms and Van Gelder 1991 for
-/// [`OpticalModel::Emitter`]; Max 1995 has all four side by side.
+/// Sources: [Williams 1992] for [`OpticalModel::DensityEmitter`], [Wilhelms 1991] for
+/// [`OpticalModel::Emitter`]; [Max 1995] has all four side by side.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum OpticalModel {
     /// `dI/dt = rho (kappa - I)`: particles of color `kappa`, as dense as they absorb. An opaque cell shows `kappa`.

@@ -26,7 +26,7 @@ impl RgbaAssoc {
 
     /// This in front of `behind`. Associative, not commutative.
     ///
-    /// Source: Porter and Duff 1984, `over` with associated color.
+    /// Source: [Porter 1984], `over` with associated color.
     #[must_use]
     pub fn over(self, behind: Self) -> Self {
         let transmittance = 1.0 - self.opacity;

@@ -38,7 +38,7 @@ pub(crate) fn erfcx(t: f64) -> Scaled {
 
 /// `value = F(t)`, `rest = 1 - 2 t F(t)`, which is the derivative of `F`.
 ///
-/// Sources: the positive series is that of `exp(-t²) ∫ exp(s²)` term by term; between the two series, Rybicki 1989, a
+/// Sources: the positive series is that of `exp(-t²) ∫ exp(s²)` term by term; between the two series, [Rybicki 1989], a
 /// trapezoidal sum that converges exponentially.
 pub(crate) fn dawson(t: f64) -> Scaled {
     if t >= ASYMPTOTIC_FROM {

@@ -10,7 +10,7 @@ use crate::{OpticalModel, RgbaAssoc, Segment, TransferFunction, homogeneous};
 ///
 /// Meant for the thick vertex of a projected cell's fan, between which and the silhouette the result is interpolated.
 ///
-/// Source: Shirley and Tuchman 1990, section 2.5 (opacity from the mean density, color the mean of both ends), for the
+/// Source: [Shirley 1990], section 2.5 (opacity from the mean density, color the mean of both ends), for the
 /// density emitter; the other models take the same means.
 pub fn thick_vertex(transfer: &TransferFunction, model: OpticalModel, segment: &Segment) -> RgbaAssoc {
     let (front, back) = (segment.scalar_front, segment.scalar_back);

@@ -9,8 +9,8 @@
 //! emitter:           front = psi - psi1    back = psi1            front + back = psi
 //! ```
 //!
-//! Sources: Williams, Max and Stein 1998 for the closed forms, here with the scaled error function and Dawson's
-//! integral so that nothing overflows; Moreland and Angel 2004 for `psi` as the one function that both weights of the
+//! Sources: [Williams 1998] for the closed forms, here with the scaled error function and Dawson's
+//! integral so that nothing overflows; [Moreland 2004] for `psi` as the one function that both weights of the
 //! density emitter need. Derivation of the series for thin segments: [`series`].
 //!
 //! # Which form where

@@ -12,7 +12,7 @@ pub(crate) enum Sign {
 }
 
 /// Shewchuk's bound for the rounding of a 3 by 3 determinant of differences: (7 + 56 ε) ε times the permanent, ε = 2⁻⁵³.
-/// Source: Shewchuk, Adaptive precision floating-point arithmetic and fast robust geometric predicates, 1997, section 4.3.
+/// Source: [Shewchuk 1997], section 4.3.
 const ROUNDING: f64 = (7.0 + 56.0 * HALF_ULP) * HALF_ULP;
 const HALF_ULP: f64 = f64::EPSILON / 2.0;
 

@@ -8,7 +8,7 @@ use crate::{Cells, Guarantee, Order, VisibilityOrder};
 
 /// Puts the centroids into slabs of equal depth and leaves the cells of a slab as they come.
 ///
-/// Source: Marroquim et al. 2006, section 3.2, who use about 20 slabs while the view changes. Depth is the distance from the
+/// Source: [Marroquim 2006], section 3.2, who use about 20 slabs while the view changes. Depth is the distance from the
 /// eye, or that along a parallel view's direction. One counting pass, no sort.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Bucket {

@@ -9,7 +9,7 @@ use crate::{Cells, Guarantee, Order, VisibilityOrder, sort_by_key, sortable_bits
 
 /// Sorts by the centroid: its distance from the eye, or its depth in a parallel view.
 ///
-/// The papers sort by the centroid's depth along the view axis (Marroquim et al. 2006, section 3.2). The distance from
+/// The papers sort by the centroid's depth along the view axis ([Marroquim 2006], section 3.2). The distance from
 /// the eye costs the same and is far better in perspective: on a regular grid 0.01 % of neighbors come in the wrong order
 /// instead of 9 %. Keys have 32 bits; cells with equal keys stay as they come.
 #[derive(Clone, Copy, Debug, Default)]

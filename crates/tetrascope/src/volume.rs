@@ -79,7 +79,7 @@ impl Volume {
         })
     }
 
-    /// The built-in sample: the distance from a sphere on a coarse mesh, after [Röttger 2000], Figure 3.
+    /// The built-in sample: the distance from a sphere on a coarse mesh, after [Röttger 2000], figure 3.
     ///
     /// # Errors
     /// None in practice; the sample takes the way of every other mesh.

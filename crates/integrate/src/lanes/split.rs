@@ -93,7 +93,7 @@ fn with_thin_lanes<S: Simd>(
     }
 }
 
-/// A sum that keeps what rounding takes off: dozens of equal parts would round the same way. Source: Kahan 1965.
+/// A sum that keeps what rounding takes off: dozens of equal parts would round the same way. Source: [Kahan 1965].
 struct Sum<S: Simd> {
     value: f32x8<S>,
     lost: f32x8<S>,

@@ -12,7 +12,7 @@ const GAMMA: f64 = 1.4;
 /// Stored: Density ρ, Momentum m (3 components), StagnationEnergy e (per volume). Derived, with γ = 1.4 and the
 /// quantities nondimensional as PLOT3D has them: Pressure p = (γ − 1)(e − |m|² / 2ρ), Velocity m / ρ, Temperature p / ρ
 /// (the gas constant is 1). Where ρ is 0 the three are NaN. All have the file's float type; arithmetic is in f64.
-/// Source: [Walatka et al. 1990], scalar functions for perfect gases; the names are those of VTK's reader.
+/// Source: [Walatka 1990], scalar functions for perfect gases; the names are those of VTK's reader.
 pub(super) fn solution_arrays<T: Real>(blocks: &[Block<T>], warnings: &mut Vec<String>) -> Vec<DataArray> {
     let total = blocks.iter().map(|block| block.values.len() / 5).sum();
     let scalar = || Vec::<T>::with_capacity(total);

@@ -1,6 +1,6 @@
 //! The ways in which PLOT3D files are written, and what a file must hold in each.
 //!
-//! Nothing in a file says how it was written; [Walatka et al. 1990] describes the formats. [`all_layouts`] lists
+//! Nothing in a file says how it was written; [Walatka 1990] describes the formats. [`all_layouts`] lists
 //! every way that is read here.
 
 use std::fmt;

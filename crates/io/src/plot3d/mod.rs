@@ -5,7 +5,7 @@
 //! and takes the one in which every size fits. Files written plane by plane, planar (2-D) grids, function files, record
 //! marks of 64 bits and files with species are not read.
 //!
-//! Source: the file formats of [Walatka et al. 1990], the manual of PLOT3D (NASA TM-101067).
+//! Source: the file formats of [Walatka 1990], the manual of PLOT3D (NASA TM-101067).
 
 mod blocks;
 mod derived;
