@@ -197,6 +197,20 @@ impl TransferFunction {
         let color_factor = if model.color_is_per_length() { factor } else { 1.0 };
         Self::from_checked(scaled(&self.color, color_factor), scaled(&self.extinction, factor))
     }
+
+    /// The same optics of a field in another unit: control points at `factor` times their scalars.
+    ///
+    /// Exact where `factor` is a power of two and nothing leaves the range of floats. What grows beyond the largest float becomes
+    /// the largest float.
+    ///
+    /// # Panics
+    ///
+    /// If `factor` is not positive and finite.
+    #[must_use]
+    pub fn with_scalars_scaled(&self, factor: f64) -> Self {
+        assert!(factor > 0.0 && factor.is_finite(), "a unit of the scalar is positive and finite, not {factor}");
+        Self::from_checked(moved(&self.color, factor), moved(&self.extinction, factor))
+    }
 }
 
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -277,6 +291,11 @@ fn scaled<const N: usize>(points: &[ControlPoint<N>], factor: f64) -> Vec<Contro
         value: point.value.map(|value| (value * factor).min(f64::MAX)),
     };
     points.iter().map(scale).collect()
+}
+
+fn moved<const N: usize>(points: &[ControlPoint<N>], factor: f64) -> Vec<ControlPoint<N>> {
+    let scale = |scalar: f64| (scalar * factor).clamp(f64::MIN, f64::MAX);
+    points.iter().map(|point| ControlPoint { scalar: scale(point.scalar), ..*point }).collect()
 }
 
 /// Shares of the two ends at a scalar between them.

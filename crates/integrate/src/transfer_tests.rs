@@ -146,3 +146,21 @@ proptest! {
         prop_assert!((largest - reachable).abs() < 1e-9, "{} {}", largest, reachable);
     }
 }
+
+#[test]
+fn scalars_in_another_unit() {
+    let transfer = TransferFunction::new(
+        &[[-1e300, 0.1, 0.2, 0.3], [0.0, 1.0, 0.0, 0.5], [2e300, 0.7, 0.2, 0.1]],
+        &[[-5e299, 0.0], [1e300, 4.0], [1e300, 1.0]],
+    )
+    .unwrap();
+    // A power of two loses nothing.
+    let factor = 2.0_f64.powi(-990);
+    let scaled = transfer.with_scalars_scaled(factor);
+    for s in [-2e300, -1e300, -4.3e299, 0.0, 1.7e299, 9.99e299, 1e300, 1.5e300, 3e300] {
+        assert_eq!(transfer.extinction(s), scaled.extinction(s * factor), "{s:e}");
+        assert_eq!(transfer.color(s), scaled.color(s * factor), "{s:e}");
+    }
+    assert_eq!(transfer, scaled.with_scalars_scaled(factor.recip()));
+    assert_eq!(transfer.with_scalars_scaled(1e20).domain(), (f64::MIN, f64::MAX));
+}
