@@ -57,7 +57,10 @@ const NOWHERE: Outline = [1, 0, 1, 0];
 pub struct CpuRenderer {
     frame: Frame,
     positions: Vec<DVec3>,
+    /// In a unit in which their range is about one.
     scalars: Vec<f64>,
+    /// Scalars of the plan's transfer function times this are in that unit; a power of two.
+    scalar_factor: f64,
     /// Vertices in ascending order.
     tetrahedra: Vec<[VertexId; 4]>,
     /// Whether the volume in that order is positive.
@@ -85,10 +88,12 @@ impl CpuRenderer {
                 (vertices.map(VertexId), is_positive)
             })
             .unzip();
+        let scalar_factor = scalar_factor(mesh.tetrahedra(), scalars);
         Ok(Self {
             frame: mesh.frame(),
             positions: mesh.positions().to_vec(),
-            scalars: scalars.to_vec(),
+            scalars: scalars.iter().map(|s| s * scalar_factor).collect(),
+            scalar_factor,
             tetrahedra,
             is_positive,
             level: Level::new(),
@@ -183,10 +188,32 @@ impl CpuRenderer {
         match &*kept {
             Some(optics) if optics.is_for(&plan.transfer, plan.model) => Arc::clone(optics),
             _ => {
-                let optics = Arc::new(Optics::new(&plan.transfer, plan.model, &self.tetrahedra, &self.scalars));
+                let optics = Arc::new(self.make_optics(plan));
                 *kept = Some(Arc::clone(&optics));
                 optics
             }
         }
+    }
+
+    fn make_optics(&self, plan: &Plan) -> Optics {
+        Optics::new(&plan.transfer, self.scalar_factor, plan.model, &self.tetrahedra, &self.scalars)
+    }
+}
+
+/// The power of two that brings the range of a field to between 1 and 2, so that what f32 sees of it neither over- nor
+/// underflows, whatever its unit. Being a power of two it changes no digit.
+fn scalar_factor(tetrahedra: &[[VertexId; 4]], scalars: &[f64]) -> f64 {
+    let (low, high) = tetrahedra
+        .par_iter()
+        .map(|cell| cell.map(|v| scalars[v.index()]))
+        .map(|s| s.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), &s| (low.min(s), high.max(s))))
+        .reduce(|| (f64::INFINITY, f64::NEG_INFINITY), |a, b| (a.0.min(b.0), a.1.max(b.1)));
+    // Halves, whose difference is finite.
+    let half = 0.5 * high - 0.5 * low;
+    if half > 0.0 {
+        // Within what has a finite inverse.
+        (-half.log2().floor() - 1.0).clamp(-1000.0, 1000.0).exp2()
+    } else {
+        1.0
     }
 }

@@ -7,6 +7,9 @@ use tetrascope_mesh::{CellId, VertexId};
 /// A transfer function and what it makes of every cell; view independent.
 #[derive(Debug)]
 pub(crate) struct Optics {
+    /// As the plan has it.
+    source: TransferFunction,
+    /// Over scalars in the renderer's unit.
     transfer: TransferFunction,
     pub(crate) model: OpticalModel,
     /// The pieces of the transfer function, as lines.
@@ -81,12 +84,15 @@ impl Line {
 }
 
 impl Optics {
+    /// - `scalars`: one a point, in the renderer's unit: those of the plan times `factor`
     pub(crate) fn new(
-        transfer: &TransferFunction,
+        source: &TransferFunction,
+        factor: f64,
         model: OpticalModel,
         tetrahedra: &[[VertexId; 4]],
         scalars: &[f64],
     ) -> Self {
+        let transfer = source.with_scalars_scaled(factor);
         let range = |cell: &[VertexId; 4]| {
             let values = cell.map(|v| scalars[v.index()]);
             values.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), &s| (low.min(s), high.max(s)))
@@ -110,12 +116,12 @@ impl Optics {
             .map(CellId)
             .collect();
         let lines = transfer.pieces().iter().map(Line::new).collect();
-        Self { transfer: transfer.clone(), model, lines, pieces, visible }
+        Self { source: source.clone(), transfer, model, lines, pieces, visible }
     }
 
     /// Whether these are the optics of that transfer function.
     pub(crate) fn is_for(&self, transfer: &TransferFunction, model: OpticalModel) -> bool {
-        self.model == model && self.transfer == *transfer
+        self.model == model && self.source == *transfer
     }
 
     pub(crate) fn visible(&self) -> &[CellId] {
