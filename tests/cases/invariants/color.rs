@@ -144,7 +144,17 @@ fn a_map_of_the_scalar_changes_nothing() {
     each_case(|_, tets, draw, view, place| {
         let one = draw(&tets.scalars, &plan(view, &smooth, EXTINCTION));
         assert!(mean_opacity(&one) > 0.1);
-        for (p, q) in [(2.0, 0.0), (1e-6, 300.0), (1e12, -7e11), (1e-30, 0.0), (1.0, 1e5), (-1.0, 0.0), (-3e4, 12.0)] {
+        for (p, q) in [
+            (2.0, 0.0),
+            (1e-6, 300.0),
+            (1e12, -7e11),
+            (1e-30, 0.0),
+            (1e-300, 0.0),
+            (1e300, -1e299),
+            (1.0, 1e5),
+            (-1.0, 0.0),
+            (-3e4, 12.0),
+        ] {
             let map = |s: f64| p * s + q;
             let scalars: Vec<f64> = tets.scalars.iter().map(|&s| map(s)).collect();
             let mut color: Vec<[f64; 4]> = smooth.iter().map(|&[s, r, g, b]| [map(s), r, g, b]).collect();
