@@ -68,18 +68,18 @@ impl PixelSpace {
 /// A tetrahedron as the intersection of four half-spaces, and its scalar as an affine function.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct ClipCell {
-    faces: [ClipFace; 4],
-    gradient: DVec3,
-    scalar_at_anchor: f64,
-    anchor: DVec3,
-    scalar_range: [f64; 2],
+    pub(crate) faces: [ClipFace; 4],
+    pub(crate) gradient: DVec3,
+    pub(crate) scalar_at_anchor: f64,
+    pub(crate) anchor: DVec3,
+    pub(crate) scalar_range: [f64; 2],
 }
 
 /// The half-space behind a face: `normal . (x - point) <= 0`, the normal pointing out of the cell.
 #[derive(Clone, Copy, Debug)]
-struct ClipFace {
-    normal: DVec3,
-    point: DVec3,
+pub(crate) struct ClipFace {
+    pub(crate) normal: DVec3,
+    pub(crate) point: DVec3,
 }
 
 /// Part of a ray inside a cell.
@@ -93,7 +93,7 @@ pub(crate) struct Span {
 
 /// Relative size under which a number that ought to be zero counts as zero: far above the rounding of the few operations
 /// that make it (some 1e-15), far below anything that a picture shows (1e-11 of the picture's width).
-const IN_PLANE: f64 = 1e-11;
+pub(crate) const IN_PLANE: f64 = 1e-11;
 
 impl ClipCell {
     /// From corners in pixel space, sorted by vertex index, and whether the volume in this order is positive.
@@ -171,9 +171,8 @@ impl ClipCell {
 pub(crate) type PixelBox = [u32; 4];
 
 /// Points in pixel space, and where they are on the screen.
-#[derive(Debug)]
+#[derive(Debug, Default)]
 pub(crate) struct Points {
-    pub(crate) space: PixelSpace,
     pub(crate) positions: Vec<DVec3>,
     /// Column and row, counted so that the center of the first pixel is `(0, 0)`; of no meaning for a point that is not in
     /// front of the eye of a perspective view.
@@ -181,18 +180,15 @@ pub(crate) struct Points {
 }
 
 impl Points {
-    /// Takes every point into pixel space, once.
-    pub(crate) fn new(space: PixelSpace, local: &[DVec3]) -> Self {
+    /// Takes every point into pixel space, once. What was there before gives its memory.
+    pub(crate) fn project(&mut self, space: &PixelSpace, local: &[DVec3]) {
         let middle = DVec2::new(f64::from(space.size[0]), f64::from(space.size[1])) * 0.5 - 0.5;
-        let (positions, screen) = local
-            .par_iter()
-            .map(|&p| {
-                let p = space.transform(p);
-                let screen = if space.is_perspective { p.truncate() / p.z } else { p.truncate() };
-                (p, screen + middle)
-            })
-            .unzip();
-        Self { space, positions, screen }
+        let project = |&p: &DVec3| {
+            let p = space.transform(p);
+            let screen = if space.is_perspective { p.truncate() / p.z } else { p.truncate() };
+            (p, screen + middle)
+        };
+        local.par_iter().map(project).unzip_into_vecs(&mut self.positions, &mut self.screen);
     }
 
     #[inline]
@@ -204,51 +200,51 @@ impl Points {
     ///
     /// A cell that reaches the plane of the eye in a perspective view has no finite outline; it is bounded by the picture.
     #[inline]
-    pub(crate) fn pixel_box(&self, vertices: [u32; 4]) -> Option<PixelBox> {
+    pub(crate) fn pixel_box(&self, space: &PixelSpace, vertices: [u32; 4]) -> Option<PixelBox> {
         let [a, b, c, d] = vertices.map(|v| self.positions[v as usize].z);
-        if self.space.is_perspective && a.min(b).min(c).min(d) <= 0.0 {
-            return self.box_at_the_eye(vertices);
+        if space.is_perspective && a.min(b).min(c).min(d) <= 0.0 {
+            return self.box_at_the_eye(space, vertices);
         }
         if a.max(b).max(c).max(d) <= 0.0 {
             return None;
         }
         let [a, b, c, d] = vertices.map(|v| self.screen[v as usize]);
-        self.pixels_between(a.min(b).min(c.min(d)), a.max(b).max(c.max(d)))
+        pixels_between(space, a.min(b).min(c.min(d)), a.max(b).max(c.max(d)))
     }
 
     #[cold]
-    fn box_at_the_eye(&self, vertices: [u32; 4]) -> Option<PixelBox> {
+    fn box_at_the_eye(&self, space: &PixelSpace, vertices: [u32; 4]) -> Option<PixelBox> {
         let corners = self.corners(vertices);
-        let half = self.space.size.map(|n| f64::from(n) * 0.5);
+        let half = space.size.map(|n| f64::from(n) * 0.5);
         if corners.iter().all(|p| p.z <= 0.0)
             || is_outside_rectangle(&corners, [-half[0], half[0]], [-half[1], half[1]])
         {
             return None;
         }
-        let [width, height] = self.space.size;
+        let [width, height] = space.size;
         Some([0, width - 1, 0, height - 1])
     }
+}
 
-    /// The pixel centers in a rectangle of the screen.
-    #[inline]
-    fn pixels_between(&self, low: DVec2, high: DVec2) -> Option<PixelBox> {
-        // Projection rounds by some 1e-13 pixels; a pixel too many costs nothing.
-        const MARGIN: f64 = 1e-6;
-        let [width, height] = self.space.size;
-        let (low, high) = (low - MARGIN, high + MARGIN);
-        // Written so that NaN gives nothing.
-        let is_in = low.x <= f64::from(width - 1) && low.y <= f64::from(height - 1) && high.x >= 0.0 && high.y >= 0.0;
-        if !is_in {
-            return None;
-        }
-        let first = |x: f64| {
-            let below = x.max(0.0) as u32;
-            below + u32::from(f64::from(below) < x)
-        };
-        let last = |x: f64, count: u32| (x as u32).min(count - 1);
-        let outline = [first(low.x), last(high.x, width), first(low.y), last(high.y, height)];
-        (outline[0] <= outline[1] && outline[2] <= outline[3]).then_some(outline)
+/// The pixel centers in a rectangle of the screen.
+#[inline]
+fn pixels_between(space: &PixelSpace, low: DVec2, high: DVec2) -> Option<PixelBox> {
+    // Projection rounds by some 1e-13 pixels; a pixel too many costs nothing.
+    const MARGIN: f64 = 1e-6;
+    let [width, height] = space.size;
+    let (low, high) = (low - MARGIN, high + MARGIN);
+    // Written so that NaN gives nothing.
+    let is_in = low.x <= f64::from(width - 1) && low.y <= f64::from(height - 1) && high.x >= 0.0 && high.y >= 0.0;
+    if !is_in {
+        return None;
     }
+    let first = |x: f64| {
+        let below = x.max(0.0) as u32;
+        below + u32::from(f64::from(below) < x)
+    };
+    let last = |x: f64, count: u32| (x as u32).min(count - 1);
+    let outline = [first(low.x), last(high.x, width), first(low.y), last(high.y, height)];
+    (outline[0] <= outline[1] && outline[2] <= outline[3]).then_some(outline)
 }
 
 /// Whether no ray through a rectangle of the picture can meet a cell (perspective); right for cells behind the eye too.

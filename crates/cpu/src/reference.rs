@@ -68,13 +68,14 @@ fn render_here(
     let mut watch = Stopwatch::start();
     let frame = mesh.frame();
     let space = PixelSpace::new(&plan.view.in_frame(frame.origin, frame.scale), frame.scale);
-    let points = Points::new(space, mesh.positions());
+    let mut points = Points::default();
+    points.project(&space, mesh.positions());
     watch.lap(Stage::Transform);
 
     let cells: Vec<[u32; 4]> = mesh.tetrahedra().iter().map(|t| t.map(|v| v.0)).collect();
     let seen: Vec<(u32, PixelBox)> = (0..cells.len())
         .into_par_iter()
-        .filter_map(|cell| Some((cell as u32, points.pixel_box(cells[cell])?)))
+        .filter_map(|cell| Some((cell as u32, points.pixel_box(&space, cells[cell])?)))
         .collect();
     let grid = TileGrid::new(space.size, TILE_SIDE);
     let may_show = |item: usize, tile: Tile| {

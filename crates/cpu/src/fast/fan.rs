@@ -11,6 +11,7 @@ use tetrascope_classify::{FanVertex, Viewpoint, project};
 use tetrascope_integrate::{OpticalModel, Segment, TransferFunction, thick_vertex};
 
 use super::lanes::Sample;
+use super::record::Cell;
 use super::shade::Light;
 use crate::geometry::PixelSpace;
 
@@ -44,18 +45,11 @@ pub(crate) struct FanSetUp<'a> {
 impl FanSetUp<'_> {
     /// The fan of a cell all of which lies in front of the eye; `None` if its outline has no area.
     ///
-    /// - `corners`: in pixel space, with their scalars, in ascending order of the vertices
     /// - `pixel`: center of the reference pixel
     /// - `depth`: the record's reference depth
-    pub(crate) fn fan(
-        &self,
-        corners: &[DVec3; 4],
-        scalars: &[f64; 4],
-        is_positive: bool,
-        pixel: DVec2,
-        depth: f64,
-    ) -> Option<Fan> {
-        let (mut corners, mut scalars, mut ids) = (*corners, *scalars, [0_u32, 1, 2, 3]);
+    pub(crate) fn fan(&self, cell: &Cell, pixel: DVec2, depth: f64) -> Option<Fan> {
+        let &Cell { mut corners, mut scalars, is_positive, .. } = cell;
+        let mut ids = [0_u32, 1, 2, 3];
         if !is_positive {
             corners.swap(2, 3);
             scalars.swap(2, 3);

@@ -69,6 +69,16 @@ pub struct CpuRenderer {
     level: Level,
     /// Of the last transfer function.
     optics: Mutex<Option<Arc<Optics>>>,
+    /// Memory of the last frame: asking the system for it anew costs a fifth of a frame.
+    scratch: Mutex<Option<Scratch>>,
+}
+
+/// What a frame fills and the next one fills again.
+#[derive(Debug, Default)]
+struct Scratch {
+    points: Points,
+    outlines: Vec<Outline>,
+    records: Vec<Records>,
 }
 
 impl CpuRenderer {
@@ -98,6 +108,7 @@ impl CpuRenderer {
             is_positive,
             level: Level::new(),
             optics: Mutex::new(None),
+            scratch: Mutex::new(None),
         })
     }
 
@@ -118,14 +129,16 @@ impl CpuRenderer {
 
         let view = plan.view.in_frame(self.frame.origin, self.frame.scale);
         let space = PixelSpace::new(&view, self.frame.scale);
-        let points = Points::new(space, &self.positions);
+        let mut scratch = self.scratch.lock().unwrap_or_else(PoisonError::into_inner).take().unwrap_or_default();
+        let Scratch { points, outlines, records } = &mut scratch;
+        points.project(&space, &self.positions);
         watch.lap(Stage::Transform);
 
-        let outlines: Vec<Outline> = self
-            .tetrahedra
+        let outline = |cell: &[VertexId; 4]| points.pixel_box(&space, cell.map(|v| v.0));
+        self.tetrahedra
             .par_iter()
-            .map(|cell| points.pixel_box(cell.map(|v| v.0)).map_or(NOWHERE, |outline| outline.map(|p| p as u16)))
-            .collect();
+            .map(|cell| outline(cell).map_or(NOWHERE, |outline| outline.map(|p| p as u16)))
+            .collect_into_vec(outlines);
         let seen: Vec<CellId> =
             optics.visible().par_iter().copied().filter(|cell| outlines[cell.index()] != NOWHERE).collect();
         let cells = Cells { positions: &self.positions, tetrahedra: &self.tetrahedra };
@@ -133,8 +146,12 @@ impl CpuRenderer {
         watch.lap(Stage::Order);
 
         let with_fans = plan.integration == Integration::Vertex;
-        let setup = record::SetUp { renderer: self, points: &points, outlines: &outlines, optics: &optics, with_fans };
-        let records: Vec<Records> = order.front_to_back.par_chunks(CHUNK).map(|chunk| setup.records(chunk)).collect();
+        let setup = record::SetUp { renderer: self, points, space: &space, outlines, optics: &optics, with_fans };
+        records.resize_with(order.front_to_back.len().div_ceil(CHUNK), Records::default);
+        records
+            .par_iter_mut()
+            .zip(order.front_to_back.par_chunks(CHUNK))
+            .for_each(|(records, cells)| setup.fill(cells, records));
         watch.lap(Stage::SetUp);
 
         let grid = TileGrid::new(space.size, TILE_SIDE);
@@ -179,6 +196,7 @@ impl CpuRenderer {
             careful: records.iter().map(|r| r.careful.len() as u64).sum(),
             fragments: fragments.into_inner(),
         };
+        *self.scratch.lock().unwrap_or_else(PoisonError::into_inner) = Some(scratch);
         Rendered { image, timings: watch.finish(), counts }
     }
 

@@ -8,6 +8,7 @@
 //! - chord length, in units of the reference depth and of the ray's stretch: `(e_f - e_b) / ((1 + e_f) (1 + e_b))`;
 //! - scalar: `(G - k e) / (1 + e)` with `G` linear in the pixels. Without the denominators when orthographic.
 
+use fearless_simd::dispatch;
 use glam::{DVec2, DVec3};
 use tetrascope_classify::{DepthPlane, cut_at_depth};
 use tetrascope_mesh::CellId;
@@ -57,6 +58,21 @@ impl CellRecord {
     }
 }
 
+/// A cell before set-up.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Cell {
+    /// In pixel space, in ascending order of the vertices.
+    pub(crate) corners: [DVec3; 4],
+    pub(crate) scalars: [f64; 4],
+    /// Whether the volume in that order is positive.
+    pub(crate) is_positive: bool,
+    pub(crate) outline: Outline,
+    pub(crate) pieces: CellPieces,
+}
+
+/// Cells that are fetched together before they are set up.
+const BATCH: usize = 32;
+
 /// Corners and scalars of a cell that is drawn in f64, in ascending order of the vertices.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct CarefulCell {
@@ -92,6 +108,7 @@ impl Records {
 pub(crate) struct SetUp<'a> {
     pub(crate) renderer: &'a CpuRenderer,
     pub(crate) points: &'a Points,
+    pub(crate) space: &'a PixelSpace,
     /// One a cell of the mesh.
     pub(crate) outlines: &'a [Outline],
     pub(crate) optics: &'a Optics,
@@ -103,95 +120,87 @@ pub(crate) struct SetUp<'a> {
 const FAN_NEAR: f64 = 1e-4;
 
 impl SetUp<'_> {
-    /// Sets up cells in the order given; those without volume or outside the picture are left out.
-    pub(crate) fn records(&self, cells: &[CellId]) -> Records {
-        let mut records = Records { cells: Vec::with_capacity(cells.len()), ..Records::default() };
-        for &cell in cells {
-            let vertices = self.renderer.tetrahedra[cell.index()];
-            let corners = self.points.corners(vertices.map(|v| v.0));
-            let outline = self.outlines[cell.index()];
-            let scalars = vertices.map(|v| self.renderer.scalars[v.index()]);
-            let is_positive = self.renderer.is_positive[cell.index()];
-            let pieces = self.optics.pieces_of(cell);
-            if self.with_fans {
-                self.add_with_fan(&corners, &scalars, is_positive, outline, pieces, &mut records);
-            } else {
-                self.add(&corners, &scalars, is_positive, outline, pieces, &mut records);
-            }
-        }
-        records
+    /// Sets up cells in the order given; those without volume are left out. What was in `records` gives its memory.
+    pub(crate) fn fill(&self, cells: &[CellId], records: &mut Records) {
+        records.cells.clear();
+        records.careful.clear();
+        records.fans.clear();
+        dispatch!(self.renderer.level, _simd => self.fill_here(cells, records));
     }
 
-    /// Adds a cell's record, if it has volume and can be seen.
-    fn add(
-        &self,
-        corners: &[DVec3; 4],
-        scalars: &[f64; 4],
-        is_positive: bool,
-        outline: Outline,
-        pieces: CellPieces,
-        records: &mut Records,
-    ) {
-        let record = self.record(corners, scalars, is_positive, outline, pieces).or_else(|| {
-            let clip = ClipCell::new(corners, scalars, is_positive)?;
-            records.careful.push(CarefulCell { corners: *corners, clip });
-            Some(self.careful_record(scalars, outline, pieces, records.careful.len() - 1))
+    /// [`Self::fill`], compiled for the processor's instructions.
+    #[inline(always)]
+    fn fill_here(&self, cells: &[CellId], records: &mut Records) {
+        let mut vertices = Vec::with_capacity(BATCH);
+        let mut batch = Vec::with_capacity(BATCH);
+        for cells in cells.chunks(BATCH) {
+            // Cells and points lie scattered in memory. Fetched for many cells at once, their latencies overlap.
+            vertices.clear();
+            vertices.extend(cells.iter().map(|&cell| self.renderer.tetrahedra[cell.index()]));
+            batch.clear();
+            batch.extend(cells.iter().zip(&vertices).map(|(&cell, vertices)| Cell {
+                corners: self.points.corners(vertices.map(|v| v.0)),
+                scalars: vertices.map(|v| self.renderer.scalars[v.index()]),
+                is_positive: self.renderer.is_positive[cell.index()],
+                outline: self.outlines[cell.index()],
+                pieces: self.optics.pieces_of(cell),
+            }));
+            for cell in &batch {
+                if self.with_fans {
+                    self.add_with_fan(cell, records);
+                } else {
+                    self.add(cell, records);
+                }
+            }
+        }
+    }
+
+    /// Adds a cell's record, if it has volume.
+    #[inline(always)]
+    fn add(&self, cell: &Cell, records: &mut Records) {
+        let record = self.record(cell).or_else(|| {
+            let clip = ClipCell::new(&cell.corners, &cell.scalars, cell.is_positive)?;
+            records.careful.push(CarefulCell { corners: cell.corners, clip });
+            Some(self.careful_record(cell, records.careful.len() - 1))
         });
         records.cells.extend(record);
     }
 
     /// Adds a cell's record and its fan; a cell that reaches the plane of the eye is cut there into cells that do not.
-    fn add_with_fan(
-        &self,
-        corners: &[DVec3; 4],
-        scalars: &[f64; 4],
-        is_positive: bool,
-        outline: Outline,
-        pieces: CellPieces,
-        records: &mut Records,
-    ) {
-        let fans = FanSetUp { space: &self.points.space, transfer: self.optics.transfer(), model: self.optics.model };
-        let mut add = |corners: &[DVec3; 4], scalars: &[f64; 4], is_positive: bool| {
-            self.add(corners, scalars, is_positive, outline, pieces, records);
+    fn add_with_fan(&self, cell: &Cell, records: &mut Records) {
+        let space = self.space;
+        let fans = FanSetUp { space, transfer: self.optics.transfer(), model: self.optics.model };
+        let mut add = |cell: &Cell| {
+            self.add(cell, records);
             if let Some(record) = records.cells.get(records.fans.len()) {
-                let [u, w] = [0, 1].map(|i| PixelSpace::center(u32::from(record.pixel[i]), self.points.space.size[i]));
-                let depth = if self.points.space.is_perspective {
-                    record.length / self.points.space.world_per_depth
-                } else {
-                    1.0
-                };
-                records.fans.push(fans.fan(corners, scalars, is_positive, DVec2::new(u, w), depth));
+                let [u, w] = [0, 1].map(|i| PixelSpace::center(u32::from(record.pixel[i]), space.size[i]));
+                let depth = if space.is_perspective { record.length / space.world_per_depth } else { 1.0 };
+                records.fans.push(fans.fan(cell, DVec2::new(u, w), depth));
             }
         };
-        let farthest = corners.iter().fold(f64::NEG_INFINITY, |m, p| m.max(p.z));
-        let depth = if self.points.space.is_perspective { FAN_NEAR * farthest } else { 0.0 };
-        if corners.iter().all(|p| p.z >= depth) {
-            add(corners, scalars, is_positive);
+        let farthest = cell.corners.iter().fold(f64::NEG_INFINITY, |m, p| m.max(p.z));
+        let depth = if space.is_perspective { FAN_NEAR * farthest } else { 0.0 };
+        if cell.corners.iter().all(|p| p.z >= depth) {
+            add(cell);
             return;
         }
-        let (mut corners, mut scalars) = (*corners, *scalars);
-        if !is_positive {
+        let (mut corners, mut scalars) = (cell.corners, cell.scalars);
+        if !cell.is_positive {
             corners.swap(2, 3);
             scalars.swap(2, 3);
         }
-        let ids = if is_positive { [0, 1, 2, 3] } else { [0, 1, 3, 2] };
+        let ids = if cell.is_positive { [0, 1, 2, 3] } else { [0, 1, 3, 2] };
         let plane = DepthPlane { origin: DVec3::ZERO, forward: DVec3::Z, depth };
         for piece in cut_at_depth(&corners, &scalars, ids, &plane).pieces() {
-            add(&piece.positions, &piece.scalars, true);
+            add(&Cell { corners: piece.positions, scalars: piece.scalars, is_positive: true, ..*cell });
         }
     }
 
     /// The record of a cell that f32 can draw; `None` if it cannot.
-    fn record(
-        &self,
-        corners: &[DVec3; 4],
-        scalars: &[f64; 4],
-        is_positive: bool,
-        outline: Outline,
-        pieces: CellPieces,
-    ) -> Option<CellRecord> {
-        let [a, b, c, d] = *corners;
-        let is_perspective = self.points.space.is_perspective;
+    #[inline(always)]
+    fn record(&self, cell: &Cell) -> Option<CellRecord> {
+        let &Cell { corners: [a, b, c, d], scalars, is_positive, outline, pieces } = cell;
+        let is_perspective = self.space.is_perspective;
         let nearest = a.z.min(b.z).min(c.z).min(d.z);
         let farthest = a.z.max(b.z).max(c.z).max(d.z);
         if nearest <= if is_perspective { NEAR * farthest } else { 0.0 } {
@@ -211,10 +220,8 @@ impl SetUp<'_> {
 
         let [x0, x1, y0, y1] = outline.map(u32::from);
         let pixel = [(x0 + x1) / 2, (y0 + y1) / 2];
-        let [u, w] = [
-            PixelSpace::center(pixel[0], self.points.space.size[0]),
-            PixelSpace::center(pixel[1], self.points.space.size[1]),
-        ];
+        let [u, w] =
+            [PixelSpace::center(pixel[0], self.space.size[0]), PixelSpace::center(pixel[1], self.space.size[1])];
         let depth = (a.z + b.z + c.z + d.z) * 0.25;
         let (reference, across) =
             if is_perspective { (DVec3::new(u, w, 1.0) * depth, depth) } else { (DVec3::new(u, w, depth), 1.0) };
@@ -269,7 +276,7 @@ impl SetUp<'_> {
             nearness_range: nearness_range.map(|x| x as f32),
             scalar_range: [(low - scalar_reference) as f32, (high - scalar_reference) as f32],
             scalar_reference,
-            length: self.points.space.world_per_depth * across,
+            length: self.space.world_per_depth * across,
             pixel: pixel.map(|p| p as u16),
             outline,
             pieces,
@@ -278,7 +285,8 @@ impl SetUp<'_> {
         })
     }
 
-    fn careful_record(&self, scalars: &[f64; 4], outline: Outline, pieces: CellPieces, careful: usize) -> CellRecord {
+    fn careful_record(&self, cell: &Cell, careful: usize) -> CellRecord {
+        let &Cell { scalars, outline, pieces, .. } = cell;
         let low = scalars.iter().fold(f64::INFINITY, |m, &s| m.min(s));
         let high = scalars.iter().fold(f64::NEG_INFINITY, |m, &s| m.max(s));
         CellRecord {
@@ -287,7 +295,7 @@ impl SetUp<'_> {
             nearness_range: [0.0; 2],
             scalar_range: [0.0, (high - low) as f32],
             scalar_reference: low,
-            length: self.points.space.world_per_depth,
+            length: self.space.world_per_depth,
             pixel: [outline[0].midpoint(outline[1]), outline[2].midpoint(outline[3])],
             outline,
             pieces,

@@ -5,7 +5,7 @@ use tetrascope_integrate::{Integration, OpticalModel};
 use tetrascope_scene::Plan;
 use tetrascope_view::LinearImage;
 
-use super::lanes::{BLOCK_HEIGHT, BLOCK_WIDTH, LANES, PlaneRow, Sample, careful_sample};
+use super::lanes::{BLOCK_HEIGHT, BLOCK_WIDTH, BlockRange, CoverList, LANES, Sample, careful_sample};
 use super::optics::Optics;
 use super::record::{CellRecord, Records};
 use super::shade::{
@@ -13,6 +13,10 @@ use super::shade::{
 };
 use crate::geometry::PixelSpace;
 use crate::grid::{Bins, Tile, TileGrid};
+
+/// Records that are fetched together before they are drawn. They lie scattered in memory; one after the other, each would be
+/// waited for, while together their latencies overlap. 8 KiB.
+const BATCH: usize = 64;
 
 /// Everything that drawing a tile needs.
 pub(crate) struct Job<'a> {
@@ -105,19 +109,32 @@ impl Job<'_> {
         let mut pixels = Pixels::new(tile, self.space);
         let mut fragments = 0;
         let mut pieces = Vec::new();
+        let mut covers = CoverList::new();
+        let mut batch = Vec::with_capacity(BATCH);
         for (records, bins) in self.records.iter().zip(self.bins) {
-            for &item in bins.of(index) {
-                let record = &records.cells[item as usize];
-                self.optics.localize(
-                    record.pieces,
-                    record.scalar_reference,
-                    record.scalar_range,
-                    record.length,
-                    &mut pieces,
-                );
-                let fan = records.fans.get(item as usize).and_then(Option::as_ref);
-                let cell = CellOptics { pieces: &pieces, fan };
-                fragments += self.draw_cell::<S, I, M, PERSPECTIVE>(simd, tile, records, record, cell, &mut pixels);
+            for items in bins.of(index).chunks(BATCH) {
+                batch.clear();
+                batch.extend(items.iter().map(|&item| records.cells[item as usize]));
+                for (record, &item) in batch.iter().zip(items) {
+                    self.optics.localize(
+                        record.pieces,
+                        record.scalar_reference,
+                        record.scalar_range,
+                        record.length,
+                        &mut pieces,
+                    );
+                    let fan = records.fans.get(item as usize).and_then(Option::as_ref);
+                    let cell = CellOptics { pieces: &pieces, fan };
+                    fragments += self.draw_cell::<S, I, M, PERSPECTIVE>(
+                        simd,
+                        tile,
+                        records,
+                        record,
+                        cell,
+                        &mut covers,
+                        &mut pixels,
+                    );
+                }
             }
         }
         (pixels, fragments)
@@ -132,6 +149,7 @@ impl Job<'_> {
         records: &Records,
         record: &CellRecord,
         cell: CellOptics<'_>,
+        covers: &mut CoverList,
         pixels: &mut Pixels,
     ) -> u64 {
         let [x0, x1, y0, y1] = record.outline();
@@ -139,25 +157,34 @@ impl Job<'_> {
         let last_column = x1.min(tile.x + tile.width - 1) - tile.x;
         let first_row = y0.max(tile.y) - tile.y;
         let last_row = y1.min(tile.y + tile.height - 1) - tile.y;
+        let (first_column, first_row) = (first_column / BLOCK_WIDTH, first_row / BLOCK_HEIGHT);
+        let range = BlockRange {
+            pixel: [tile.x + first_column * BLOCK_WIDTH, tile.y + first_row * BLOCK_HEIGHT],
+            first: first_row * pixels.columns + first_column,
+            columns: last_column / BLOCK_WIDTH - first_column + 1,
+            rows: last_row / BLOCK_HEIGHT - first_row + 1,
+            stride: pixels.columns,
+        };
         let mut fragments = 0;
-        for row in first_row / BLOCK_HEIGHT..=last_row / BLOCK_HEIGHT {
-            let y = tile.y + row * BLOCK_HEIGHT;
-            let blocks = &mut pixels.blocks[(row * pixels.columns) as usize..][..pixels.columns as usize];
-            let columns = first_column / BLOCK_WIDTH..=last_column / BLOCK_WIDTH;
-            if record.entry_count > 0 {
-                let planes = PlaneRow::new(simd, record, y);
-                for column in columns {
-                    if let Some(sample) = planes.sample::<PERSPECTIVE>(simd, tile.x + column * BLOCK_WIDTH) {
-                        fragments += blend::<S, I, M, PERSPECTIVE>(simd, cell, sample, &mut blocks[column as usize]);
-                    }
-                }
-            } else {
-                let careful = &records.careful[record.careful as usize];
-                for column in columns {
-                    let place = [tile.x + column * BLOCK_WIDTH, y];
-                    if let Some(sample) = careful_sample(simd, careful, record, self.space, place) {
-                        fragments += blend::<S, I, M, PERSPECTIVE>(simd, cell, sample, &mut blocks[column as usize]);
-                    }
+        if record.entry_count > 0 {
+            covers.find(simd, record, range);
+            covers.each::<S, PERSPECTIVE>(
+                simd,
+                record,
+                #[inline(always)]
+                |block, sample| {
+                    fragments += blend::<S, I, M, PERSPECTIVE>(simd, cell, sample, &mut pixels.blocks[block]);
+                },
+            );
+            return fragments;
+        }
+        let careful = &records.careful[record.careful as usize];
+        for row in 0..range.rows {
+            for column in 0..range.columns {
+                let place = [range.pixel[0] + column * BLOCK_WIDTH, range.pixel[1] + row * BLOCK_HEIGHT];
+                if let Some(sample) = careful_sample(simd, careful, record, self.space, place) {
+                    let block = (range.first + row * range.stride + column) as usize;
+                    fragments += blend::<S, I, M, PERSPECTIVE>(simd, cell, sample, &mut pixels.blocks[block]);
                 }
             }
         }
