@@ -11,3 +11,8 @@ mod image;
 
 pub use camera::{Camera, Projection, Ray, View, ViewError, Viewpoint};
 pub use image::LinearImage;
+
+/// Compiles and runs the README's example.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;

@@ -47,6 +47,7 @@ const CHECKS: &[Check] = &[
     ("dependencies point downward", layers::downward),
     ("only crates that may open files", layers::files),
     ("links lead somewhere", prose::links),
+    ("sources have keys that are listed, and all listed are used", prose::references),
     ("README.md has the command that CI runs", prose::test_command),
     ("no path of one machine", prose::machine_paths),
     ("what is missing is named", prose::missing_things),

@@ -1,5 +1,7 @@
 //! Texts: links, commands, paths, and words about what is missing.
 
+use std::collections::BTreeSet;
+
 use super::{Finding, Tree};
 use crate::ci::TEST_COMMAND;
 
@@ -85,6 +87,55 @@ fn headings(text: &str) -> impl Iterator<Item = String> {
         let words = line.trim_start_matches('#').trim().to_lowercase();
         let kept = words.chars().filter(|c| c.is_alphanumeric() || matches!(c, ' ' | '-' | '_'));
         kept.map(|c| if c == ' ' { '-' } else { c }).collect()
+    })
+}
+
+const REFERENCES: &str = "docs/references.md";
+
+/// Keys in brackets, `[Name 1990]`, stand in the list of references, and each of the list stands in some code or text.
+pub(super) fn references(tree: &Tree) -> Vec<Finding> {
+    let mut findings = Vec::new();
+    let listed: BTreeSet<&str> = tree.text(REFERENCES).unwrap_or_default().lines().filter_map(listed_key).collect();
+    let mut used = BTreeSet::new();
+    let elsewhere = |path: &str| path != REFERENCES && !path.starts_with("xtask/src/tidy/");
+    for (path, text) in tree.texts(".rs").chain(tree.texts(".md")).filter(|(path, _)| elsewhere(path)) {
+        for (index, line) in text.lines().enumerate() {
+            for key in &listed {
+                if line.contains(&format!("[{key}]")) {
+                    used.insert(*key);
+                }
+            }
+            for key in keys_with_year(line).filter(|key| !listed.contains(key)) {
+                findings.push(Finding::new(
+                    format!("{path}:{}", index + 1),
+                    format!("the source [{key}] is not listed"),
+                    format!("add it to {REFERENCES}, under the first author and the year"),
+                ));
+            }
+        }
+    }
+    for key in listed.difference(&used) {
+        findings.push(Finding::new(
+            REFERENCES,
+            format!("nothing names [{key}]"),
+            "remove it, or name it where it is used",
+        ));
+    }
+    findings
+}
+
+/// The key of a row `| [Key] | ...`.
+fn listed_key(line: &str) -> Option<&str> {
+    line.strip_prefix("| [")?.split_once("] |").map(|(key, _)| key)
+}
+
+/// What looks like a key: a name in brackets that ends in a year.
+fn keys_with_year(line: &str) -> impl Iterator<Item = &str> {
+    line.split('[').skip(1).filter_map(|rest| rest.split_once(']')).map(|(key, _)| key).filter(|key| {
+        key.starts_with(char::is_uppercase)
+            && key
+                .rsplit_once(' ')
+                .is_some_and(|(_, year)| year.len() == 4 && year.parse::<u16>().is_ok_and(|y| y > 1800))
     })
 }
 

@@ -103,6 +103,23 @@ fn links_that_lead_nowhere() {
 }
 
 #[test]
+fn references_unlisted_and_unused() {
+    let listed = |rows: &str| good().with("docs/references.md", rows);
+    let key = "| [Max 1995] | N. Max. |\n";
+    check_finds(listed(key), "nothing names [Max 1995]");
+    let citing = "//! A file after [Max 1995], figure 2.\n";
+    assert_eq!(findings(&listed(key).with("crates/mesh/src/b.rs", citing)), [""; 0]);
+    check_finds(
+        good().with("crates/mesh/src/b.rs", citing),
+        "crates/mesh/src/b.rs:1: the source [Max 1995] is not listed",
+    );
+    assert_eq!(
+        findings(&good().with("crates/mesh/src/b.rs", "//! A list [0, 1] of [Some] numbers [A 12].\n")),
+        [""; 0]
+    );
+}
+
+#[test]
 fn printing_and_opening_files() {
     let printing = "//! A file here.\nfn f() {\n    eprintln!(\"x\");\n}\n";
     check_finds(good().with("crates/mesh/src/b.rs", printing), "crates/mesh/src/b.rs:3: prints");
