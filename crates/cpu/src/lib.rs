@@ -2,7 +2,7 @@
 //!
 //! Two renderers live here, kept apart, and both follow a [`Plan`](tetrascope_scene::Plan):
 //!
-//! - [`reference`] clips every pixel's ray against every tetrahedron in f64, sorts what it finds along each ray and
+//! - [`mod@reference`] clips every pixel's ray against every tetrahedron in f64, sorts what it finds along each ray and
 //!   integrates exactly. It needs no visibility order and handles cycles. Slow, and the judge.
 //! - [`CpuRenderer`] is what users run: one set-up per tetrahedron, tiles, eight pixels at a time in f32, all cores. It
 //!   draws the cells in the order that the plan names.

@@ -64,7 +64,8 @@ impl LinearImage {
 
 /// One channel in linear light to 8-bit sRGB ([IEC 61966-2-1]); clamps, and NaN gives 0.
 fn srgb8_from_linear(linear: f32) -> u8 {
-    let encoded = if linear <= 0.003_130_8 { 12.92 * linear } else { 1.055 * linear.min(1.0).powf(1.0 / 2.4) - 0.055 };
+    // NaN takes the second branch, stays NaN, and the maximum with 0 drops it.
+    let encoded = if linear > 0.003_130_8 { 1.055 * linear.min(1.0).powf(1.0 / 2.4) - 0.055 } else { 12.92 * linear };
     (encoded.max(0.0) * 255.0 + 0.5) as u8
 }
 
