@@ -170,10 +170,18 @@ impl ClipCell {
 /// The pixels whose centers a cell may cover: first and last column, first and last row, both included.
 pub(crate) type PixelBox = [u32; 4];
 
+/// A point in pixel space and its scalar, side by side: one cache line serves both.
+#[derive(Clone, Copy, Debug)]
+#[repr(C, align(32))]
+pub(crate) struct Point {
+    pub(crate) position: DVec3,
+    pub(crate) scalar: f64,
+}
+
 /// Points in pixel space, and where they are on the screen.
 #[derive(Debug, Default)]
 pub(crate) struct Points {
-    pub(crate) positions: Vec<DVec3>,
+    points: Vec<Point>,
     /// Column and row, counted so that the center of the first pixel is `(0, 0)`; of no meaning for a point that is not in
     /// front of the eye of a perspective view.
     screen: Vec<DVec2>,
@@ -181,19 +189,26 @@ pub(crate) struct Points {
 
 impl Points {
     /// Takes every point into pixel space, once. What was there before gives its memory.
-    pub(crate) fn project(&mut self, space: &PixelSpace, local: &[DVec3]) {
+    pub(crate) fn project(&mut self, space: &PixelSpace, local: &[DVec3], scalars: &[f64]) {
         let middle = DVec2::new(f64::from(space.size[0]), f64::from(space.size[1])) * 0.5 - 0.5;
-        let project = |&p: &DVec3| {
+        let project = |(&p, &scalar): (&DVec3, &f64)| {
             let p = space.transform(p);
             let screen = if space.is_perspective { p.truncate() / p.z } else { p.truncate() };
-            (p, screen + middle)
+            (Point { position: p, scalar }, screen + middle)
         };
-        local.par_iter().map(project).unzip_into_vecs(&mut self.positions, &mut self.screen);
+        local.par_iter().zip(scalars).map(project).unzip_into_vecs(&mut self.points, &mut self.screen);
     }
 
+    /// A cell's corners in pixel space.
     #[inline]
-    pub(crate) fn corners(&self, vertices: [u32; 4]) -> [DVec3; 4] {
-        vertices.map(|v| self.positions[v as usize])
+    pub(crate) fn corners(&self, [a, b, c, d]: [u32; 4]) -> [DVec3; 4] {
+        [a, b, c, d].map(|v| self.points[v as usize].position)
+    }
+
+    /// A cell's corners with their scalars.
+    #[inline(always)]
+    pub(crate) fn gather(&self, [a, b, c, d]: [u32; 4]) -> [Point; 4] {
+        [self.points[a as usize], self.points[b as usize], self.points[c as usize], self.points[d as usize]]
     }
 
     /// Where a cell can be seen, or `None` if it cannot. Conservative.
@@ -201,7 +216,7 @@ impl Points {
     /// A cell that reaches the plane of the eye in a perspective view has no finite outline; it is bounded by the picture.
     #[inline]
     pub(crate) fn pixel_box(&self, space: &PixelSpace, vertices: [u32; 4]) -> Option<PixelBox> {
-        let [a, b, c, d] = vertices.map(|v| self.positions[v as usize].z);
+        let [a, b, c, d] = vertices.map(|v| self.points[v as usize].position.z);
         if space.is_perspective && a.min(b).min(c).min(d) <= 0.0 {
             return self.box_at_the_eye(space, vertices);
         }

@@ -5,8 +5,8 @@ use crate::geometry::PixelBox;
 /// The picture cut into square tiles; those at the right and lower edge may be cut off.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct TileGrid {
-    /// Pixels a side.
-    pub(crate) side: u32,
+    /// Logarithm of the pixels a side: divisions by the side are shifts.
+    side_log2: u32,
     /// Width and height of the picture.
     pub(crate) size: [u32; 2],
     /// Tiles a row.
@@ -24,8 +24,10 @@ pub(crate) struct Tile {
 }
 
 impl TileGrid {
+    /// Tiles of `side` pixels, a power of two.
     pub(crate) fn new(size: [u32; 2], side: u32) -> Self {
-        Self { side, size, columns: size[0].div_ceil(side), rows: size[1].div_ceil(side) }
+        debug_assert!(side.is_power_of_two());
+        Self { side_log2: side.ilog2(), size, columns: size[0].div_ceil(side), rows: size[1].div_ceil(side) }
     }
 
     pub(crate) fn len(&self) -> usize {
@@ -33,8 +35,17 @@ impl TileGrid {
     }
 
     pub(crate) fn tile(&self, index: usize) -> Tile {
-        let (x, y) = (index as u32 % self.columns * self.side, index as u32 / self.columns * self.side);
-        Tile { x, y, width: self.side.min(self.size[0] - x), height: self.side.min(self.size[1] - y) }
+        self.tile_at(index as u32 % self.columns, index as u32 / self.columns)
+    }
+
+    fn tile_at(&self, column: u32, row: u32) -> Tile {
+        let side = self.side();
+        let (x, y) = (column * side, row * side);
+        Tile { x, y, width: side.min(self.size[0] - x), height: side.min(self.size[1] - y) }
+    }
+
+    fn side(&self) -> u32 {
+        1 << self.side_log2
     }
 
     /// Lists for every tile the items whose box touches it and that pass `may_show(item, tile)`, each list in the order of the items.
@@ -64,11 +75,10 @@ impl TileGrid {
         mut visit: impl FnMut(usize, usize),
     ) {
         for (item, [x0, x1, y0, y1]) in boxes.enumerate() {
-            for row in y0 / self.side..=y1 / self.side {
-                for column in x0 / self.side..=x1 / self.side {
-                    let tile = row as usize * self.columns as usize + column as usize;
-                    if may_show(item, self.tile(tile)) {
-                        visit(tile, item);
+            for row in y0 >> self.side_log2..=y1 >> self.side_log2 {
+                for column in x0 >> self.side_log2..=x1 >> self.side_log2 {
+                    if may_show(item, self.tile_at(column, row)) {
+                        visit(row as usize * self.columns as usize + column as usize, item);
                     }
                 }
             }

@@ -47,10 +47,9 @@ struct Fragment {
     scalar: [f64; 2],
 }
 
-struct Job<'a> {
+struct Job {
     cells: Vec<[u32; 4]>,
     points: Points,
-    scalars: &'a [f64],
     space: PixelSpace,
     grid: TileGrid,
     bins: Bins,
@@ -69,7 +68,7 @@ fn render_here(
     let frame = mesh.frame();
     let space = PixelSpace::new(&plan.view.in_frame(frame.origin, frame.scale), frame.scale);
     let mut points = Points::default();
-    points.project(&space, mesh.positions());
+    points.project(&space, mesh.positions(), scalars);
     watch.lap(Stage::Transform);
 
     let cells: Vec<[u32; 4]> = mesh.tetrahedra().iter().map(|t| t.map(|v| v.0)).collect();
@@ -93,7 +92,7 @@ fn render_here(
     let bins = grid.bin(seen.iter().map(|&(_, outline)| outline), may_show);
     watch.lap(Stage::Bin);
 
-    let job = Job { scalars, space, grid, bins, cells, points, seen };
+    let job = Job { space, grid, bins, cells, points, seen };
     let fragments = AtomicU64::new(0);
     let done = AtomicU64::new(0);
     let total = grid.len() as u64;
@@ -122,15 +121,15 @@ fn render_here(
     Rendered { image, timings: watch.finish(), counts }
 }
 
-impl Job<'_> {
+impl Job {
     fn draw_tile(&self, index: usize, plan: &Plan, integrate: Integrate, count: &AtomicU64) -> Vec<[f32; 4]> {
         let tile = self.grid.tile(index);
         let mut pixels: Vec<Vec<Fragment>> = vec![Vec::new(); (tile.width * tile.height) as usize];
         for &item in self.bins.of(index) {
             let (cell, [x0, x1, y0, y1]) = self.seen[item as usize];
             let (vertices, is_positive) = ascending(self.cells[cell as usize]);
-            let corners = self.points.corners(vertices);
-            let scalars = vertices.map(|v| self.scalars[v as usize]);
+            let points = self.points.gather(vertices);
+            let (corners, scalars) = (points.map(|p| p.position), points.map(|p| p.scalar));
             let Some(clip) = ClipCell::new(&corners, &scalars, is_positive) else { continue };
             for y in y0.max(tile.y)..=y1.min(tile.y + tile.height - 1) {
                 let w = PixelSpace::center(y, self.space.size[1]);

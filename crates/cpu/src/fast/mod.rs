@@ -131,7 +131,7 @@ impl CpuRenderer {
         let space = PixelSpace::new(&view, self.frame.scale);
         let mut scratch = self.scratch.lock().unwrap_or_else(PoisonError::into_inner).take().unwrap_or_default();
         let Scratch { points, outlines, records } = &mut scratch;
-        points.project(&space, &self.positions);
+        points.project(&space, &self.positions, &self.scalars);
         watch.lap(Stage::Transform);
 
         let outline = |cell: &[VertexId; 4]| points.pixel_box(&space, cell.map(|v| v.0));

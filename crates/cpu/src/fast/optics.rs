@@ -69,7 +69,7 @@ impl Line {
     }
 
     /// As a cell sees it from `start` to `end`, scalars that count from `reference`.
-    #[inline]
+    #[inline(always)]
     fn localize(&self, reference: f64, [start, end]: [f64; 2], length: f64, color_factor: f64) -> LocalPiece {
         let distance = (start + reference) - self.anchor;
         let value = |at: f64, slope: f64, factor: f64| finite((at + slope * distance).max(0.0) * factor);
@@ -141,6 +141,7 @@ impl Optics {
     /// - `reference`: the scalar from which the cell counts
     /// - `range`: its lowest and highest scalar, counted from there
     /// - `length`: world length of the cell's unit of length
+    #[inline(always)]
     pub(crate) fn localize(
         &self,
         pieces: CellPieces,
@@ -163,7 +164,7 @@ impl Optics {
 }
 
 /// To f32 without becoming infinite: times zero, infinity would be NaN.
-#[inline]
+#[inline(always)]
 fn finite(x: f64) -> f32 {
     x.clamp(f64::from(f32::MIN), f64::from(f32::MAX)) as f32
 }

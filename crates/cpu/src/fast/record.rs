@@ -138,13 +138,16 @@ impl SetUp<'_> {
             vertices.clear();
             vertices.extend(cells.iter().map(|&cell| self.renderer.tetrahedra[cell.index()]));
             batch.clear();
-            batch.extend(cells.iter().zip(&vertices).map(|(&cell, vertices)| Cell {
-                corners: self.points.corners(vertices.map(|v| v.0)),
-                scalars: vertices.map(|v| self.renderer.scalars[v.index()]),
-                is_positive: self.renderer.is_positive[cell.index()],
-                outline: self.outlines[cell.index()],
-                pieces: self.optics.pieces_of(cell),
-            }));
+            for (&cell, [a, b, c, d]) in cells.iter().zip(&vertices) {
+                let [a, b, c, d] = self.points.gather([a.0, b.0, c.0, d.0]);
+                batch.push(Cell {
+                    corners: [a.position, b.position, c.position, d.position],
+                    scalars: [a.scalar, b.scalar, c.scalar, d.scalar],
+                    is_positive: self.renderer.is_positive[cell.index()],
+                    outline: self.outlines[cell.index()],
+                    pieces: self.optics.pieces_of(cell),
+                });
+            }
             for cell in &batch {
                 if self.with_fans {
                     self.add_with_fan(cell, records);

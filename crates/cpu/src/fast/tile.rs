@@ -165,6 +165,7 @@ impl Job<'_> {
             rows: last_row / BLOCK_HEIGHT - first_row + 1,
             stride: pixels.columns,
         };
+        let termination = self.plan.termination;
         let mut fragments = 0;
         if record.entry_count > 0 {
             covers.find(simd, record, range);
@@ -173,7 +174,8 @@ impl Job<'_> {
                 record,
                 #[inline(always)]
                 |block, sample| {
-                    fragments += blend::<S, I, M, PERSPECTIVE>(simd, cell, sample, &mut pixels.blocks[block]);
+                    fragments +=
+                        blend::<S, I, M, PERSPECTIVE>(simd, cell, sample, termination, &mut pixels.blocks[block]);
                 },
             );
             return fragments;
@@ -184,7 +186,8 @@ impl Job<'_> {
                 let place = [range.pixel[0] + column * BLOCK_WIDTH, range.pixel[1] + row * BLOCK_HEIGHT];
                 if let Some(sample) = careful_sample(simd, careful, record, self.space, place) {
                     let block = (range.first + row * range.stride + column) as usize;
-                    fragments += blend::<S, I, M, PERSPECTIVE>(simd, cell, sample, &mut pixels.blocks[block]);
+                    fragments +=
+                        blend::<S, I, M, PERSPECTIVE>(simd, cell, sample, termination, &mut pixels.blocks[block]);
                 }
             }
         }
@@ -198,13 +201,18 @@ fn blend<S: Simd, I: Method, M: Model, const PERSPECTIVE: bool>(
     simd: S,
     cell: CellOptics<'_>,
     mut sample: Sample<S>,
+    termination: f32,
     block: &mut Block,
 ) -> u64 {
+    let before = f32x8::from_slice(simd, &block.transmittance);
+    // What lies behind an opaque block is not seen.
+    if M::ABSORBS && !before.simd_ge(f32x8::splat(simd, termination)).any_true() {
+        return 0;
+    }
     if PERSPECTIVE {
         sample.length = sample.length * f32x8::from_slice(simd, &block.stretch);
     }
     let Light { rgb, transmittance } = I::shade::<S, M>(simd, cell, &sample);
-    let before = f32x8::from_slice(simd, &block.transmittance);
     if M::EMITS {
         for (channel, color) in block.rgb.iter_mut().zip(rgb) {
             before.mul_add(color, f32x8::from_slice(simd, channel)).store_slice(channel);

@@ -113,7 +113,7 @@ proptest! {
         let space = PixelSpace::new(&View::new(&camera, 23, 17).unwrap(), 1.0);
         prop_assume!(volume(corners) > 1e-3);
         let mut points = Points::default();
-        points.project(&space, &corners);
+        points.project(&space, &corners, &[0.0; 4]);
         let outline = points.pixel_box(&space, [0, 1, 2, 3]);
         let corners = points.corners([0, 1, 2, 3]);
         let cell = clip(corners, [0.0; 4]).unwrap();
