@@ -1,5 +1,11 @@
 //! Tests that cross crates, one binary.
 
+#![expect(
+    clippy::unwrap_used,
+    clippy::print_stdout,
+    reason = "helpers of tests: a panic is a failure, and measured maxima are said"
+)]
+
 mod golden;
 mod hostile;
 mod invariants;

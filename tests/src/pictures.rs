@@ -44,11 +44,12 @@ impl Renderer {
         let image = match self {
             Self::Fast(integration) => {
                 let plan = Plan { integration, ..plan.clone() };
-                CpuRenderer::new(mesh, scalars).unwrap().render(&plan, &Silent).unwrap().image
+                let renderer = CpuRenderer::new(mesh, scalars).expect("the field fits");
+                renderer.render(&plan, &Silent).expect("the plan is good").image
             }
             Self::Reference(integration) => {
                 let plan = Plan { integration, backend: Backend::Reference, ..plan.clone() };
-                reference::render(mesh, scalars, &plan, &Silent).unwrap().image
+                reference::render(mesh, scalars, &plan, &Silent).expect("the plan is good").image
             }
         };
         assert!(image.pixels().iter().flatten().all(|c| c.is_finite()), "{self:?} gave a number that is not finite");
@@ -67,7 +68,7 @@ pub fn plan(view: View, color: &[[f64; 4]], extinction: &[[f64; 2]]) -> Plan {
     Plan {
         view,
         background: [0.0; 3],
-        transfer: TransferFunction::new(color, extinction).unwrap(),
+        transfer: TransferFunction::new(color, extinction).expect("the control points are good"),
         model: OpticalModel::DensityEmitter,
         integration: Integration::Exact,
         order: OrderMethod::Centroid,

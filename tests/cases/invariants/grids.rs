@@ -160,9 +160,9 @@ fn halves_of_a_grid_add_up_to_the_whole() {
                         let image = renderer.draw(&mesh, &vec![0.0; mesh.positions().len()], &plan);
                         image.pixels().iter().map(|p| 1.0 - f64::from(p[3])).collect::<Vec<_>>()
                     });
-                    for i in 0..transmittances[0].len() {
-                        let product = transmittances[1][i] * transmittances[2][i];
-                        worst.note((transmittances[0][i] - product).abs(), || {
+                    let [whole, lower, upper] = &transmittances;
+                    for (i, ((whole, lower), upper)) in whole.iter().zip(lower).zip(upper).enumerate() {
+                        worst.note((whole - lower * upper).abs(), || {
                             format!("along {axis}, cut {cut}, perspective {is_perspective}, {renderer:?}, pixel {i}")
                         });
                     }
