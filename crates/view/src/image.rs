@@ -75,9 +75,7 @@ mod tests {
 
     #[test]
     fn srgb_known_values() {
-        for (linear, byte) in
-            [(0.0, 0), (1.0, 255), (7.0, 255), (-1.0, 0), (f32::NAN, 0), (0.2159, 128), (0.5, 188)]
-        {
+        for (linear, byte) in [(0.0, 0), (1.0, 255), (7.0, 255), (-1.0, 0), (f32::NAN, 0), (0.2159, 128), (0.5, 188)] {
             assert_eq!(srgb8_from_linear(linear), byte, "{linear}");
         }
     }
