@@ -12,5 +12,5 @@ use crate::{OpticalModel, RgbaAssoc, Segment, TransferFunction, homogeneous};
 pub fn average(transfer: &TransferFunction, model: OpticalModel, segment: &Segment) -> RgbaAssoc {
     // Halves first: the sum of two scalars near the largest float would overflow.
     let mean = 0.5 * segment.scalar_front + 0.5 * segment.scalar_back;
-    homogeneous::light(model, transfer.extinction(mean), transfer.color(mean), segment.chord_length)
+    homogeneous(model, transfer.extinction(mean), transfer.color(mean), segment.chord_length)
 }

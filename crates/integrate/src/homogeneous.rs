@@ -2,9 +2,15 @@
 
 use crate::{OpticalModel, RgbaAssoc};
 
+/// The light of a segment along which extinction and color are the same everywhere.
+///
 /// With `tau = extinction * length`: opacity `1 - exp(-tau)`, and light `color * opacity` where the extinction glows,
 /// `color * length * (1 - exp(-tau)) / tau` where the color is radiance per length.
-pub(crate) fn light(model: OpticalModel, extinction: f64, color: [f64; 3], length: f64) -> RgbaAssoc {
+///
+/// - `extinction`: 1/length, finite, not negative
+/// - `color`: linear RGB, not negative; radiance per length in the models that have it so
+/// - `length`: finite, not negative; 0 gives nothing
+pub fn homogeneous(model: OpticalModel, extinction: f64, color: [f64; 3], length: f64) -> RgbaAssoc {
     if length == 0.0 {
         return RgbaAssoc::TRANSPARENT;
     }

@@ -49,6 +49,7 @@ pub mod weights;
 pub use average::average;
 pub use error::{NameError, TransferFunctionError};
 pub use exact::exact;
+pub use homogeneous::homogeneous;
 pub use model::{Integration, OpticalModel};
 pub use segment::{RgbaAssoc, Segment};
 pub use thick_vertex::thick_vertex;

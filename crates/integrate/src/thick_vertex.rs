@@ -17,5 +17,5 @@ pub fn thick_vertex(transfer: &TransferFunction, model: OpticalModel, segment: &
     let extinction = 0.5 * transfer.extinction(front) + 0.5 * transfer.extinction(back);
     let (color_front, color_back) = (transfer.color(front), transfer.color(back));
     let color = core::array::from_fn(|channel| 0.5 * color_front[channel] + 0.5 * color_back[channel]);
-    homogeneous::light(model, extinction, color, segment.chord_length)
+    homogeneous(model, extinction, color, segment.chord_length)
 }

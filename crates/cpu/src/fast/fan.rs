@@ -8,7 +8,7 @@
 use fearless_simd::{Simd, f32x8, prelude::*};
 use glam::{DVec2, DVec3};
 use tetrascope_classify::{FanVertex, Viewpoint, project};
-use tetrascope_integrate::{OpticalModel, Segment, TransferFunction, thick_vertex};
+use tetrascope_integrate::{OpticalModel, TransferFunction, homogeneous};
 
 use super::lanes::Sample;
 use super::record::Cell;
@@ -67,20 +67,15 @@ impl FanSetUp<'_> {
         if !(nearness > 0.0 && nearness.is_finite()) {
             return None;
         }
-        let segment = Segment {
-            scalar_front: thick.scalar_front,
-            scalar_back: thick.scalar_back,
-            chord_length: chord * self.space.ray_stretch(center.x, center.y),
-        };
-        let light = thick_vertex(self.transfer, self.model, &segment);
+        // Color and opacity at the thick vertex as `tetrascope_integrate::thick_vertex` has them.
+        let length = chord * self.space.ray_stretch(center.x, center.y);
+        let [front, back] = [thick.scalar_front, thick.scalar_back].map(|s| self.value(cell, s));
+        let extinction = 0.5 * (front.0 + back.0);
+        let color = [0, 1, 2].map(|c| 0.5 * (front.1[c] + back.1[c]));
+        let light = homogeneous(self.model, extinction, color, length);
         // Where color is multiplied by opacity, the color itself is interpolated; else light that is 0 on the outline.
         let has_color = self.model == OpticalModel::DensityEmitter;
-        let peak = if has_color {
-            let (front, back) = (self.transfer.color(thick.scalar_front), self.transfer.color(thick.scalar_back));
-            std::array::from_fn(|c| 0.5 * (front[c] + back[c]))
-        } else {
-            light.rgb
-        };
+        let peak = if has_color { color } else { light.rgb };
         let mut fan = Fan {
             spokes: [[0.0; 3]; 5],
             colors: [[[0.0; 3]; 3]; 4],
@@ -92,12 +87,11 @@ impl FanSetUp<'_> {
         if !has_color {
             return Some(fan);
         }
+        let colors = scalars.map(|s| self.value(cell, s).1);
         for [_, i, j] in projected.fan.triangles() {
-            let corner = |v: FanVertex| match v {
-                FanVertex::Corner(c) => Some((on_screen(corners[c]), self.transfer.color(scalars[c]))),
-                FanVertex::Thick => None,
-            };
-            let (Some((p, p_color)), Some((q, q_color))) = (corner(i), corner(j)) else { continue };
+            let (FanVertex::Corner(i), FanVertex::Corner(j)) = (i, j) else { continue };
+            let (p, q) = (on_screen(corners[i]), on_screen(corners[j]));
+            let (p_color, q_color) = (colors[i], colors[j]);
             let (to_p, to_q) = (p - center, q - center);
             let area = to_p.perp_dot(to_q);
             if area == 0.0 || !area.is_finite() || fan.count == 4 {
@@ -120,6 +114,14 @@ impl FanSetUp<'_> {
             fan.count += 1;
         }
         Some(fan)
+    }
+
+    /// Extinction and color at a scalar of a cell; few pieces of the transfer function come into question.
+    fn value(&self, cell: &Cell, scalar: f64) -> (f64, [f64; 3]) {
+        let first = cell.pieces.first as usize;
+        let pieces = &self.transfer.pieces()[first..first + cell.pieces.count as usize];
+        let piece = pieces.iter().rev().find(|piece| piece.start <= scalar).unwrap_or(&pieces[0]);
+        (piece.extinction_at(scalar), piece.color_at(scalar))
     }
 }
 
