@@ -109,13 +109,9 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     settings.retain(|setting| setting.name.contains(&args.only));
     let threads = args.threads.unwrap_or_else(rayon::current_num_threads);
     let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().map_err(|e| e.to_string())?;
-    // One renderer a setting: each keeps what its transfer function makes of the cells.
-    let renderers = settings
-        .iter()
-        .map(|_| CpuRenderer::new(field.on_mesh.mesh.as_ref(), &field.on_mesh.scalars))
-        .collect::<Result<Vec<_>, _>>()?;
+    let renderer = CpuRenderer::new(field.on_mesh.mesh.as_ref(), &field.on_mesh.scalars)?;
     for frame in 0..args.frames + 2 {
-        for (setting, renderer) in settings.iter_mut().zip(&renderers) {
+        for setting in &mut settings {
             setting.plan.view = View::new(&camera(3.0 * f64::from(frame)), args.size, args.size)?;
             let start = Instant::now();
             let rendered = pool.install(|| renderer.render(&setting.plan, &Silent))?;

@@ -265,11 +265,7 @@ impl<S: Simd> ToF32s for f64x8<S> {
     fn to_f32s(self) -> [f32; LANES] {
         let mut wide = [0.0_f64; LANES];
         self.store_slice(&mut wide);
-        let mut narrow = [0.0_f32; LANES];
-        for lane in 0..LANES {
-            narrow[lane] = wide[lane] as f32;
-        }
-        narrow
+        wide.map(|x| x as f32)
     }
 }
 
@@ -282,12 +278,12 @@ fn careful_pixels(cell: &ClipCell, reference: f64, space: &PixelSpace, [x, y]: [
         let (column, row) = (x + lane as u32 % BLOCK_WIDTH, y + lane as u32 / BLOCK_WIDTH);
         let (u, w) = (PixelSpace::center(column, space.size[0]), PixelSpace::center(row, space.size[1]));
         if let Some(span) = cell.span(space.is_perspective, u, w) {
-            lanes[0][lane] = (span.scalar[0] - reference) as f32;
-            lanes[1][lane] = (span.scalar[1] - reference) as f32;
             let length = span.depth[1] - span.depth[0];
-            lanes[2][lane] = length as f32;
-            lanes[3][lane] =
-                if space.is_perspective { length / (span.depth[0] * span.depth[1]) } else { length } as f32;
+            let nearness = if space.is_perspective { length / (span.depth[0] * span.depth[1]) } else { length };
+            let values = [span.scalar[0] - reference, span.scalar[1] - reference, length, nearness];
+            for (lanes, value) in lanes.iter_mut().zip(values) {
+                lanes[lane] = value as f32;
+            }
             any = true;
         }
     }

@@ -4,6 +4,8 @@ use rayon::prelude::*;
 use tetrascope_integrate::{OpticalModel, Piece, TransferFunction};
 use tetrascope_mesh::{CellId, VertexId};
 
+use super::record::CellRecord;
+
 /// A transfer function and what it makes of every cell; view independent.
 #[derive(Debug)]
 pub(crate) struct Optics {
@@ -137,19 +139,9 @@ impl Optics {
     }
 
     /// The pieces that a cell meets, ascending, as it sees them.
-    ///
-    /// - `reference`: the scalar from which the cell counts
-    /// - `range`: its lowest and highest scalar, counted from there
-    /// - `length`: world length of the cell's unit of length
     #[inline(always)]
-    pub(crate) fn localize(
-        &self,
-        pieces: CellPieces,
-        reference: f64,
-        range: [f32; 2],
-        length: f64,
-        local: &mut Vec<LocalPiece>,
-    ) {
+    pub(crate) fn localize(&self, record: &CellRecord, local: &mut Vec<LocalPiece>) {
+        let &CellRecord { pieces, scalar_reference: reference, scalar_range: range, length, .. } = record;
         local.clear();
         let first = pieces.first as usize;
         let all = &self.lines[first..first + pieces.count as usize];

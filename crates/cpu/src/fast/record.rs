@@ -244,7 +244,9 @@ impl SetUp<'_> {
             let away = if is_perspective { normal.dot(point) } else { normal.z };
             let inverse = 1.0 / away;
             let plane = [normal.dot(from) * inverse, normal.x * across * inverse, normal.y * across * inverse];
-            if !(plane[0].abs() + plane[1].abs() * half[0] + plane[2].abs() * half[1] <= limit) {
+            let steepness = plane[0].abs() + plane[1].abs() * half[0] + plane[2].abs() * half[1];
+            // NaN where a face is seen exactly edge-on.
+            if steepness > limit || steepness.is_nan() {
                 return None;
             }
             let slot = if away < 0.0 { &mut entry } else { &mut exit };

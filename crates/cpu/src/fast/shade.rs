@@ -57,9 +57,9 @@ fn mix<S: Simd>(
     let moment = front_weight.mul_add(front, back_weight * back);
     // Loops and functions, not closures: those may stay calls, compiled without the vector instructions.
     let mut rgb = [sum; 3];
-    for c in 0..3 {
-        let constant = f32x8::splat(simd, piece.color[0][c]) * sum;
-        rgb[c] = f32x8::splat(simd, piece.color[1][c]).mul_add(moment, constant).max(0.0);
+    let [start, slope] = &piece.color;
+    for ((channel, start), slope) in rgb.iter_mut().zip(start).zip(slope) {
+        *channel = f32x8::splat(simd, *slope).mul_add(moment, sum * *start).max(0.0);
     }
     rgb
 }
@@ -155,6 +155,9 @@ pub(crate) struct CellOptics<'a> {
 
 /// An integration method.
 pub(crate) trait Method {
+    /// Whether [`CellOptics::pieces`] is looked at.
+    const NEEDS_PIECES: bool;
+
     /// The light of a block's segments through a cell.
     fn shade<S: Simd, M: Model>(simd: S, cell: CellOptics<'_>, sample: &Sample<S>) -> Light<S>;
 }
@@ -163,6 +166,8 @@ pub(crate) trait Method {
 pub(crate) struct Exact;
 
 impl Method for Exact {
+    const NEEDS_PIECES: bool = true;
+
     #[inline(always)]
     fn shade<S: Simd, M: Model>(simd: S, cell: CellOptics<'_>, sample: &Sample<S>) -> Light<S> {
         if let [piece] = cell.pieces {
@@ -203,7 +208,7 @@ fn cut<S: Simd, M: Model>(simd: S, pieces: &[LocalPiece], sample: &Sample<S>) ->
             let before = next.transmittance.mul_add(light.rgb[c], next.rgb[c]);
             light.rgb[c] = rises.select(behind, before);
         }
-        light.transmittance = light.transmittance * next.transmittance;
+        light.transmittance *= next.transmittance;
     }
     light
 }
@@ -224,6 +229,8 @@ fn value<S: Simd>(simd: S, piece: &LocalPiece, scalar: f32x8<S>) -> (f32x8<S>, [
 pub(crate) struct Average;
 
 impl Method for Average {
+    const NEEDS_PIECES: bool = true;
+
     #[inline(always)]
     fn shade<S: Simd, M: Model>(simd: S, cell: CellOptics<'_>, sample: &Sample<S>) -> Light<S> {
         let mean = (sample.front + sample.back) * 0.5;
@@ -246,6 +253,8 @@ impl Method for Average {
 pub(crate) struct Vertex;
 
 impl Method for Vertex {
+    const NEEDS_PIECES: bool = false;
+
     #[inline(always)]
     fn shade<S: Simd, M: Model>(simd: S, cell: CellOptics<'_>, sample: &Sample<S>) -> Light<S> {
         match cell.fan {

@@ -46,6 +46,15 @@ pub(crate) struct Pixels {
     columns: u32,
 }
 
+/// A tile while it is drawn.
+struct Canvas {
+    tile: Tile,
+    pixels: Pixels,
+    covers: CoverList,
+    /// Pairs of a pixel and a cell so far.
+    fragments: u64,
+}
+
 impl Pixels {
     fn new(tile: Tile, space: &PixelSpace) -> Self {
         let (columns, rows) = (tile.width.div_ceil(BLOCK_WIDTH), tile.height.div_ceil(BLOCK_HEIGHT));
@@ -59,6 +68,23 @@ impl Pixels {
             Block { rgb: [[0.0; LANES]; 3], transmittance: [1.0; LANES], stretch: std::array::from_fn(stretch) }
         };
         Self { blocks: (0..columns * rows).map(block).collect(), columns }
+    }
+
+    /// The blocks that a cell may cover; its outline touches the tile.
+    #[inline(always)]
+    fn range(&self, tile: Tile, record: &CellRecord) -> BlockRange {
+        let [x0, x1, y0, y1] = record.outline();
+        let column = (x0.max(tile.x) - tile.x) / BLOCK_WIDTH;
+        let row = (y0.max(tile.y) - tile.y) / BLOCK_HEIGHT;
+        let last_column = (x1.min(tile.x + tile.width - 1) - tile.x) / BLOCK_WIDTH;
+        let last_row = (y1.min(tile.y + tile.height - 1) - tile.y) / BLOCK_HEIGHT;
+        BlockRange {
+            pixel: [tile.x + column * BLOCK_WIDTH, tile.y + row * BLOCK_HEIGHT],
+            first: row * self.columns + column,
+            columns: last_column - column + 1,
+            rows: last_row - row + 1,
+            stride: self.columns,
+        }
     }
 
     /// Writes the pixels that lie in the picture.
@@ -106,67 +132,40 @@ impl Job<'_> {
     #[inline(always)]
     fn draw_tile<S: Simd, I: Method, M: Model, const PERSPECTIVE: bool>(&self, simd: S, index: usize) -> (Pixels, u64) {
         let tile = self.grid.tile(index);
-        let mut pixels = Pixels::new(tile, self.space);
-        let mut fragments = 0;
+        let pixels = Pixels::new(tile, self.space);
+        let mut canvas = Canvas { tile, pixels, covers: CoverList::new(), fragments: 0 };
         let mut pieces = Vec::new();
-        let mut covers = CoverList::new();
         let mut batch = Vec::with_capacity(BATCH);
         for (records, bins) in self.records.iter().zip(self.bins) {
             for items in bins.of(index).chunks(BATCH) {
                 batch.clear();
                 batch.extend(items.iter().map(|&item| records.cells[item as usize]));
                 for (record, &item) in batch.iter().zip(items) {
-                    self.optics.localize(
-                        record.pieces,
-                        record.scalar_reference,
-                        record.scalar_range,
-                        record.length,
-                        &mut pieces,
-                    );
+                    if I::NEEDS_PIECES {
+                        self.optics.localize(record, &mut pieces);
+                    }
                     let fan = records.fans.get(item as usize).and_then(Option::as_ref);
                     let cell = CellOptics { pieces: &pieces, fan };
-                    fragments += self.draw_cell::<S, I, M, PERSPECTIVE>(
-                        simd,
-                        tile,
-                        records,
-                        record,
-                        cell,
-                        &mut covers,
-                        &mut pixels,
-                    );
+                    self.draw_cell::<S, I, M, PERSPECTIVE>(simd, records, record, cell, &mut canvas);
                 }
             }
         }
-        (pixels, fragments)
+        (canvas.pixels, canvas.fragments)
     }
 
-    /// Blends one cell into the tile; gives its number of fragments.
+    /// Blends one cell into the tile.
     #[inline(always)]
     fn draw_cell<S: Simd, I: Method, M: Model, const PERSPECTIVE: bool>(
         &self,
         simd: S,
-        tile: Tile,
         records: &Records,
         record: &CellRecord,
         cell: CellOptics<'_>,
-        covers: &mut CoverList,
-        pixels: &mut Pixels,
-    ) -> u64 {
-        let [x0, x1, y0, y1] = record.outline();
-        let first_column = x0.max(tile.x) - tile.x;
-        let last_column = x1.min(tile.x + tile.width - 1) - tile.x;
-        let first_row = y0.max(tile.y) - tile.y;
-        let last_row = y1.min(tile.y + tile.height - 1) - tile.y;
-        let (first_column, first_row) = (first_column / BLOCK_WIDTH, first_row / BLOCK_HEIGHT);
-        let range = BlockRange {
-            pixel: [tile.x + first_column * BLOCK_WIDTH, tile.y + first_row * BLOCK_HEIGHT],
-            first: first_row * pixels.columns + first_column,
-            columns: last_column / BLOCK_WIDTH - first_column + 1,
-            rows: last_row / BLOCK_HEIGHT - first_row + 1,
-            stride: pixels.columns,
-        };
+        canvas: &mut Canvas,
+    ) {
+        let Canvas { tile, pixels, covers, fragments } = canvas;
+        let range = pixels.range(*tile, record);
         let termination = self.plan.termination;
-        let mut fragments = 0;
         if record.entry_count > 0 {
             covers.find(simd, record, range);
             covers.each::<S, PERSPECTIVE>(
@@ -174,11 +173,11 @@ impl Job<'_> {
                 record,
                 #[inline(always)]
                 |block, sample| {
-                    fragments +=
+                    *fragments +=
                         blend::<S, I, M, PERSPECTIVE>(simd, cell, sample, termination, &mut pixels.blocks[block]);
                 },
             );
-            return fragments;
+            return;
         }
         let careful = &records.careful[record.careful as usize];
         for row in 0..range.rows {
@@ -186,16 +185,15 @@ impl Job<'_> {
                 let place = [range.pixel[0] + column * BLOCK_WIDTH, range.pixel[1] + row * BLOCK_HEIGHT];
                 if let Some(sample) = careful_sample(simd, careful, record, self.space, place) {
                     let block = (range.first + row * range.stride + column) as usize;
-                    fragments +=
+                    *fragments +=
                         blend::<S, I, M, PERSPECTIVE>(simd, cell, sample, termination, &mut pixels.blocks[block]);
                 }
             }
         }
-        fragments
     }
 }
 
-/// Puts a cell's light behind what a block has; gives the number of pixels covered.
+/// Puts a cell's light behind what a block has; gives the number of pixels covered, 0 where the block is opaque.
 #[inline(always)]
 fn blend<S: Simd, I: Method, M: Model, const PERSPECTIVE: bool>(
     simd: S,
@@ -210,7 +208,7 @@ fn blend<S: Simd, I: Method, M: Model, const PERSPECTIVE: bool>(
         return 0;
     }
     if PERSPECTIVE {
-        sample.length = sample.length * f32x8::from_slice(simd, &block.stretch);
+        sample.length *= f32x8::from_slice(simd, &block.stretch);
     }
     let Light { rgb, transmittance } = I::shade::<S, M>(simd, cell, &sample);
     if M::EMITS {
