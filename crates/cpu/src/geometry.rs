@@ -20,7 +20,7 @@ pub(crate) struct PixelSpace {
     /// World length of one unit of depth, straight ahead.
     pub(crate) world_per_depth: f64,
     /// Width of a pixel at depth 1, horizontally and vertically (perspective); the pixel's size in an orthographic view.
-    slope: [f64; 2],
+    pub(crate) slope: [f64; 2],
     /// Pixels a row, and rows.
     pub(crate) size: [u32; 2],
 }

@@ -176,6 +176,13 @@ impl Cover {
     }
 }
 
+/// Pixel centers of a block's lanes, counted from the middle of the picture. Exact.
+#[inline(always)]
+pub(crate) fn lanes_from<S: Simd>(simd: S, [x, y]: [u32; 2], space: &PixelSpace) -> [f32x8<S>; 2] {
+    let [u, w] = [PixelSpace::center(x, space.size[0]), PixelSpace::center(y, space.size[1])];
+    [f32x8::from_slice(simd, &LANE_COLUMN) + u as f32, f32x8::from_slice(simd, &LANE_ROW) + w as f32]
+}
+
 /// Columns of the lanes of a block whose left column is `x`, counted from the record's reference pixel.
 #[inline(always)]
 fn columns<S: Simd>(simd: S, record: &CellRecord, x: u32) -> f32x8<S> {

@@ -83,6 +83,7 @@ struct Scratch {
     points: Points,
     outlines: Vec<Outline>,
     records: Vec<Records>,
+    tiles: Vec<tile::Pixels>,
 }
 
 impl CpuRenderer {
@@ -134,7 +135,7 @@ impl CpuRenderer {
         let view = plan.view.in_frame(self.frame.origin, self.frame.scale);
         let space = PixelSpace::new(&view, self.frame.scale);
         let mut scratch = self.scratch.lock().unwrap_or_else(PoisonError::into_inner).take().unwrap_or_default();
-        let Scratch { points, outlines, records } = &mut scratch;
+        let Scratch { points, outlines, records, tiles } = &mut scratch;
         points.project(&space, &self.positions, &self.scalars);
         watch.lap(Stage::Transform);
 
@@ -172,20 +173,20 @@ impl CpuRenderer {
         let fragments = AtomicU64::new(0);
         let done = AtomicU64::new(0);
         let job = tile::Job { records, bins: &bins, grid, space: &space, optics: &optics, plan, level: self.level };
-        let tiles: Vec<tile::Pixels> = (0..grid.len())
-            .into_par_iter()
-            .with_max_len(1)
-            .map(|index| {
-                let (pixels, count) = job.draw(index);
-                fragments.fetch_add(count, Ordering::Relaxed);
-                progress.report(Stage::Rasterize, done.fetch_add(1, Ordering::Relaxed) + 1, grid.len() as u64);
-                pixels
-            })
-            .collect();
+        tiles.resize_with(grid.len(), tile::Pixels::default);
+        tiles.par_iter_mut().enumerate().with_max_len(1).for_each(|(index, pixels)| {
+            fragments.fetch_add(job.draw(index, pixels), Ordering::Relaxed);
+            progress.report(Stage::Rasterize, done.fetch_add(1, Ordering::Relaxed) + 1, grid.len() as u64);
+        });
         let mut image = LinearImage::transparent(space.size[0], space.size[1]);
-        for (index, pixels) in tiles.iter().enumerate() {
-            pixels.copy_to(grid.tile(index), &mut image);
-        }
+        let width = space.size[0] as usize;
+        image.pixels_mut().par_chunks_mut(width).enumerate().for_each(|(y, line)| {
+            let side = TILE_SIDE as usize;
+            let row_of_tiles = &tiles[y / side * width.div_ceil(side)..];
+            for (line, tile) in line.chunks_mut(side).zip(row_of_tiles) {
+                tile.copy_row((y % side) as u32, line);
+            }
+        });
         watch.lap(Stage::Rasterize);
 
         let all = self.tetrahedra.len() as u64;

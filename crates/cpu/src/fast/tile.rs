@@ -3,9 +3,8 @@
 use fearless_simd::{Level, Simd, dispatch, f32x8, prelude::*};
 use tetrascope_integrate::{Integration, OpticalModel};
 use tetrascope_scene::Plan;
-use tetrascope_view::LinearImage;
 
-use super::lanes::{BLOCK_HEIGHT, BLOCK_WIDTH, BlockRange, CoverList, LANES, Sample, careful_sample};
+use super::lanes::{BLOCK_HEIGHT, BLOCK_WIDTH, BlockRange, CoverList, LANES, Sample, careful_sample, lanes_from};
 use super::optics::Optics;
 use super::record::{CellRecord, Records};
 use super::shade::{
@@ -40,6 +39,7 @@ struct Block {
 }
 
 /// The pixels of a tile, block after block.
+#[derive(Debug, Default)]
 pub(crate) struct Pixels {
     blocks: Vec<Block>,
     /// Blocks a row.
@@ -47,27 +47,33 @@ pub(crate) struct Pixels {
 }
 
 /// A tile while it is drawn.
-struct Canvas {
+struct Canvas<'a> {
     tile: Tile,
-    pixels: Pixels,
+    pixels: &'a mut Pixels,
     covers: CoverList,
     /// Pairs of a pixel and a cell so far.
     fragments: u64,
 }
 
 impl Pixels {
-    fn new(tile: Tile, space: &PixelSpace) -> Self {
+    /// Clears the pixels for a tile.
+    #[inline(always)]
+    fn reset<S: Simd>(&mut self, simd: S, tile: Tile, space: &PixelSpace) {
         let (columns, rows) = (tile.width.div_ceil(BLOCK_WIDTH), tile.height.div_ceil(BLOCK_HEIGHT));
-        let block = |index: u32| {
+        let nothing = Block { rgb: [[0.0; LANES]; 3], transmittance: [1.0; LANES], stretch: [1.0; LANES] };
+        self.columns = columns;
+        self.blocks.clear();
+        self.blocks.resize((columns * rows) as usize, nothing);
+        if !space.is_perspective {
+            return;
+        }
+        let [slope_x, slope_y] = space.slope.map(|slope| slope as f32);
+        for (index, block) in (0..).zip(&mut self.blocks) {
             let (x, y) = (tile.x + index % columns * BLOCK_WIDTH, tile.y + index / columns * BLOCK_HEIGHT);
-            let stretch = |lane: usize| {
-                let (column, row) = (x + lane as u32 % BLOCK_WIDTH, y + lane as u32 / BLOCK_WIDTH);
-                let (u, w) = (PixelSpace::center(column, space.size[0]), PixelSpace::center(row, space.size[1]));
-                (space.ray_stretch(u, w) / space.world_per_depth) as f32
-            };
-            Block { rgb: [[0.0; LANES]; 3], transmittance: [1.0; LANES], stretch: std::array::from_fn(stretch) }
-        };
-        Self { blocks: (0..columns * rows).map(block).collect(), columns }
+            let [u, w] = lanes_from(simd, [x, y], space);
+            let (right, down) = (u * slope_x, w * slope_y);
+            (right.mul_add(right, down * down) + 1.0).sqrt().store_slice(&mut block.stretch);
+        }
     }
 
     /// The blocks that a cell may cover; its outline touches the tile.
@@ -87,52 +93,55 @@ impl Pixels {
         }
     }
 
-    /// Writes the pixels that lie in the picture.
-    pub(crate) fn copy_to(&self, tile: Tile, image: &mut LinearImage) {
-        let width = image.width() as usize;
-        for y in 0..tile.height {
-            for x in 0..tile.width {
-                let block = &self.blocks[(y / BLOCK_HEIGHT * self.columns + x / BLOCK_WIDTH) as usize];
-                let lane = (y % BLOCK_HEIGHT * BLOCK_WIDTH + x % BLOCK_WIDTH) as usize;
-                let [r, g, b] = [0, 1, 2].map(|c| block.rgb[c][lane]);
-                image.pixels_mut()[(tile.y + y) as usize * width + (tile.x + x) as usize] =
-                    [r, g, b, 1.0 - block.transmittance[lane]];
+    /// Writes one row of the tile's pixels, as many as `line` has.
+    pub(crate) fn copy_row(&self, row: u32, line: &mut [[f32; 4]]) {
+        let blocks = &self.blocks[(row / BLOCK_HEIGHT * self.columns) as usize..];
+        let first_lane = (row % BLOCK_HEIGHT * BLOCK_WIDTH) as usize;
+        for (pixels, block) in line.chunks_mut(BLOCK_WIDTH as usize).zip(blocks) {
+            for (lane, pixel) in (first_lane..).zip(pixels) {
+                let [r, g, b] = &block.rgb;
+                *pixel = [r[lane], g[lane], b[lane], 1.0 - block.transmittance[lane]];
             }
         }
     }
 }
 
 impl Job<'_> {
-    /// Draws a tile; also gives the number of fragments.
-    pub(crate) fn draw(&self, index: usize) -> (Pixels, u64) {
+    /// Draws a tile into `pixels`, whatever was there before; gives the number of fragments.
+    pub(crate) fn draw(&self, index: usize, pixels: &mut Pixels) -> u64 {
         match self.plan.integration {
-            Integration::Vertex => self.draw_with::<Vertex>(index),
-            Integration::Average => self.draw_with::<Average>(index),
-            Integration::Exact => self.draw_with::<Exact>(index),
+            Integration::Vertex => self.draw_with::<Vertex>(index, pixels),
+            Integration::Average => self.draw_with::<Average>(index, pixels),
+            Integration::Exact => self.draw_with::<Exact>(index, pixels),
         }
     }
 
-    fn draw_with<I: Method>(&self, index: usize) -> (Pixels, u64) {
+    fn draw_with<I: Method>(&self, index: usize, pixels: &mut Pixels) -> u64 {
         match self.optics.model {
-            OpticalModel::DensityEmitter => self.draw_as::<I, DensityEmitter>(index),
-            OpticalModel::Emitter => self.draw_as::<I, Emitter>(index),
-            OpticalModel::Absorption => self.draw_as::<I, Absorption>(index),
-            OpticalModel::Emission => self.draw_as::<I, Emission>(index),
+            OpticalModel::DensityEmitter => self.draw_as::<I, DensityEmitter>(index, pixels),
+            OpticalModel::Emitter => self.draw_as::<I, Emitter>(index, pixels),
+            OpticalModel::Absorption => self.draw_as::<I, Absorption>(index, pixels),
+            OpticalModel::Emission => self.draw_as::<I, Emission>(index, pixels),
         }
     }
 
-    fn draw_as<I: Method, M: Model>(&self, index: usize) -> (Pixels, u64) {
+    fn draw_as<I: Method, M: Model>(&self, index: usize, pixels: &mut Pixels) -> u64 {
         if self.space.is_perspective {
-            dispatch!(self.level, simd => self.draw_tile::<_, I, M, true>(simd, index))
+            dispatch!(self.level, simd => self.draw_tile::<_, I, M, true>(simd, index, pixels))
         } else {
-            dispatch!(self.level, simd => self.draw_tile::<_, I, M, false>(simd, index))
+            dispatch!(self.level, simd => self.draw_tile::<_, I, M, false>(simd, index, pixels))
         }
     }
 
     #[inline(always)]
-    fn draw_tile<S: Simd, I: Method, M: Model, const PERSPECTIVE: bool>(&self, simd: S, index: usize) -> (Pixels, u64) {
+    fn draw_tile<S: Simd, I: Method, M: Model, const PERSPECTIVE: bool>(
+        &self,
+        simd: S,
+        index: usize,
+        pixels: &mut Pixels,
+    ) -> u64 {
         let tile = self.grid.tile(index);
-        let pixels = Pixels::new(tile, self.space);
+        pixels.reset(simd, tile, self.space);
         let mut canvas = Canvas { tile, pixels, covers: CoverList::new(), fragments: 0 };
         let mut pieces = Vec::new();
         let mut batch = Vec::with_capacity(BATCH);
@@ -150,7 +159,7 @@ impl Job<'_> {
                 }
             }
         }
-        (canvas.pixels, canvas.fragments)
+        canvas.fragments
     }
 
     /// Blends one cell into the tile.
@@ -161,7 +170,7 @@ impl Job<'_> {
         records: &Records,
         record: &CellRecord,
         cell: CellOptics<'_>,
-        canvas: &mut Canvas,
+        canvas: &mut Canvas<'_>,
     ) {
         let Canvas { tile, pixels, covers, fragments } = canvas;
         let range = pixels.range(*tile, record);
