@@ -41,7 +41,12 @@ fn print(path: &Path, loaded: &Loaded, arrays: &[ArraySummary], report: &Result<
         say("", &format!("{count:>10}  {}", name_of(*kind)));
     }
     if let Ok(report) = report {
-        say("tetrahedra", &report.tetrahedra.to_string());
+        let counts = &report.decomposition;
+        let without_volume = match counts.no_volume {
+            0 => String::new(),
+            n => format!(", of which {n} have no volume"),
+        };
+        say("tetrahedra", &format!("{}{without_volume}; {} to draw", counts.tetrahedra, report.tetrahedra));
         if let Some((low, high)) = report.bounds_world {
             for (axis, low, high) in [("x", low.x, high.x), ("y", low.y, high.y), ("z", low.z, high.z)] {
                 say(if axis == "x" { "bounds" } else { "" }, &format!("{axis} {} to {}", short(low), short(high)));
@@ -81,7 +86,8 @@ fn as_json(path: &Path, loaded: &Loaded, arrays: &[ArraySummary], report: &Resul
     let mut out = json!({ "file": path.display().to_string(), "format": loaded.format,
         "points": loaded.dataset.points.len(), "cells": kinds, "arrays": arrays, "warnings": loaded.warnings });
     let more = match report {
-        Ok(report) => json!({ "tetrahedra": report.tetrahedra, "volume": report.volume_world,
+        Ok(report) => json!({ "tetrahedra": report.tetrahedra, "tetrahedra_cut": report.decomposition.tetrahedra,
+            "tetrahedra_without_volume": report.decomposition.no_volume, "volume": report.volume_world,
             "bounds": report.bounds_world.map(|(low, high)| [low.to_array(), high.to_array()]),
             "boundary_faces": report.boundary_faces, "connected_parts": report.connected_parts,
             "findings": report.findings() }),

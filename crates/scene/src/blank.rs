@@ -53,8 +53,24 @@ pub fn explain_blank(plan: &Plan, facts: &MeshFacts) -> Vec<String> {
             short(facts.diagonal()),
             short(crate::defaults::DIAGONAL_DEPTH / facts.diagonal())
         ));
+    } else if let Some(reason) = too_thin(plan, facts, if adds_light { emission } else { extinction }) {
+        reasons.push(reason);
     }
     reasons
+}
+
+/// Whether the mesh is so thin that hardly anything adds up across it, though its diagonal is long enough.
+fn too_thin(plan: &Plan, facts: &MeshFacts, per_length: f64) -> Option<String> {
+    let thinnest = (facts.highest - facts.lowest).min_element();
+    if plan.model.color_is_per_length() && plan.model.needs_extinction() || per_length * thinnest >= 1.0 / 255.0 {
+        return None;
+    }
+    Some(format!(
+        "the mesh is only {} thick on one side, across which {} per unit of length adds up to nothing; raise it, or look along \
+         the mesh",
+        short(thinnest),
+        short(per_length)
+    ))
 }
 
 /// On which side of the view the whole box lies, if it does.
