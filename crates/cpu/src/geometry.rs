@@ -106,7 +106,7 @@ impl ClipCell {
         let sign = if is_positive { 1.0 } else { -1.0 };
         let face = |sign: f64, p: DVec3, q: DVec3, r: DVec3| ClipFace { normal: (q - p).cross(r - p) * sign, point: p };
         let faces = [face(sign, b, c, d), face(-sign, a, c, d), face(sign, a, b, d), face(-sign, a, b, c)];
-        // Twice: the normal of the face opposite to b is that of (c - a) x (d - a), turned.
+        // The normal of the face opposite to b is (c - a) x (d - a) with the sign turned: six times the volume from b's height.
         let six_volume = -(b - a).dot(faces[1].normal);
         if !(six_volume > 0.0 && six_volume.is_finite()) {
             return None;

@@ -162,7 +162,7 @@ pub(super) fn machine_paths(tree: &Tree) -> Vec<Finding> {
     for (path, text) in tree.texts("") {
         for (index, line) in text.lines().enumerate() {
             for machine in MACHINE {
-                // Only where a path begins: "../work/" is none.
+                // Only where a path begins: the same letters after two dots and a slash are none.
                 let starts = line.match_indices(machine).any(|(at, _)| {
                     !line[..at].ends_with(|c: char| c.is_alphanumeric() || matches!(c, '.' | '_' | '-' | '*' | '}'))
                 });

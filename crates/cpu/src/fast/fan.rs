@@ -1,7 +1,7 @@
 //! Fans of triangles, for the integration that is defined on them.
 //!
-//! Shirley and Tuchman (1990, section 2.6) interpolate color and opacity linearly on the screen over each triangle between
-//! the thick vertex and two corners. The opacity is 0 on the outline and greatest at the thick vertex, as the chord's
+//! Color and opacity are interpolated linearly on the screen over each triangle between the thick vertex and two corners
+//! ([Shirley 1990], section 2.6). The opacity is 0 on the outline and greatest at the thick vertex, as the chord's
 //! nearness is; so it is the thick vertex's opacity times the share of nearness, and only the color needs the
 //! triangles.
 

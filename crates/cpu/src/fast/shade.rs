@@ -225,7 +225,7 @@ fn value<S: Simd>(simd: S, piece: &LocalPiece, scalar: f32x8<S>) -> (f32x8<S>, [
     (at(simd, piece.extinction, distance), color)
 }
 
-/// The transfer function at the mean of the two scalars (Marroquim et al. 2006, section 2 and equation 1).
+/// The transfer function at the mean of the two scalars ([Marroquim 2006], section 2 and eq. (1)).
 pub(crate) struct Average;
 
 impl Method for Average {
@@ -249,7 +249,7 @@ impl Method for Average {
     }
 }
 
-/// Color and opacity at the vertices, interpolated over the fan's triangles (Shirley and Tuchman 1990, sections 2.5 and 2.6).
+/// Color and opacity at the vertices, interpolated over the fan's triangles ([Shirley 1990], sections 2.5 and 2.6).
 pub(crate) struct Vertex;
 
 impl Method for Vertex {
