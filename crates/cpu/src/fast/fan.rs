@@ -10,9 +10,8 @@ use glam::{DVec2, DVec3};
 use tetrascope_classify::{FanVertex, Viewpoint, project};
 use tetrascope_integrate::{OpticalModel, TransferFunction, homogeneous};
 
-use super::lanes::Sample;
-use super::record::Cell;
-use super::shade::Light;
+use super::cell::Cell;
+use super::sample::{Light, Sample};
 use crate::geometry::PixelSpace;
 
 /// A cell's fan on the screen; pixels are counted from the record's reference pixel.

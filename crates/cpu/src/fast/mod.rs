@@ -10,10 +10,15 @@
 //! Cells stay in one order from stage 2 on and every tile is drawn by one thread, so that the picture does not depend on the number of
 //! threads. What depends on the transfer function alone is kept from frame to frame.
 
+mod careful;
+mod cell;
+mod cover;
 mod fan;
-mod lanes;
+mod model;
 mod optics;
 mod record;
+mod sample;
+mod setup;
 mod shade;
 mod tile;
 
@@ -35,8 +40,10 @@ use crate::geometry::{PixelSpace, Points, ascending};
 use crate::grid::{Bins, TileGrid};
 use crate::rendered::Stopwatch;
 use crate::{Counts, RenderError, Rendered};
+use cell::{NOWHERE, Outline};
 use optics::Optics;
 use record::{CellRecord, Records};
+use setup::SetUp;
 
 /// Pixels a side of a tile: color, transmittance and ray of its pixels take 20 KiB, which leaves room in a first-level cache.
 const TILE_SIDE: u32 = 32;
@@ -46,12 +53,6 @@ const CHUNK: usize = 4096;
 
 /// Transfer functions that are remembered, so that going back and forth between two costs nothing.
 const KEPT_OPTICS: usize = 2;
-
-/// The pixels that a cell may cover: first and last column, first and last row.
-type Outline = [u16; 4];
-
-/// The outline of a cell that cannot be seen.
-const NOWHERE: Outline = [1, 0, 1, 0];
 
 /// Draws one field on one mesh, again and again.
 ///
@@ -151,7 +152,7 @@ impl CpuRenderer {
         watch.lap(Stage::Order);
 
         let with_fans = plan.integration == Integration::Vertex;
-        let setup = record::SetUp { renderer: self, points, space: &space, outlines, optics: &optics, with_fans };
+        let setup = SetUp { renderer: self, points, space: &space, outlines, optics: &optics, with_fans };
         records.resize_with(order.front_to_back.len().div_ceil(CHUNK), Records::default);
         records
             .par_iter_mut()
@@ -163,7 +164,7 @@ impl CpuRenderer {
         let bins: Vec<Bins> = records
             .par_iter()
             .map(|records| {
-                grid.bin(records.cells.iter().map(CellRecord::outline), |item, tile| {
+                grid.bin(records.cells.iter().map(CellRecord::pixel_box), |item, tile| {
                     records.may_show(item, tile, &space)
                 })
             })
@@ -237,3 +238,6 @@ fn scalar_factor(tetrahedra: &[[VertexId; 4]], scalars: &[f64]) -> f64 {
         1.0
     }
 }
+
+#[cfg(test)]
+mod tests;

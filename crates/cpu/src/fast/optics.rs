@@ -4,6 +4,7 @@ use rayon::prelude::*;
 use tetrascope_integrate::{OpticalModel, Piece, TransferFunction};
 use tetrascope_mesh::{CellId, VertexId};
 
+use super::cell::{CellPieces, LocalPiece};
 use super::record::CellRecord;
 
 /// A transfer function and what it makes of every cell; view independent.
@@ -20,26 +21,6 @@ pub(crate) struct Optics {
     pieces: Vec<CellPieces>,
     /// The cells that add something to the picture, ascending.
     visible: Vec<CellId>,
-}
-
-/// The pieces of the transfer function that a cell's range of scalars meets: `first .. first + count`.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) struct CellPieces {
-    pub(crate) first: u32,
-    pub(crate) count: u32,
-}
-
-/// A piece as one cell sees it: in f32, over scalars relative to the cell's reference, cut to the cell's range, and with
-/// lengths in the cell's unit.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct LocalPiece {
-    /// Lowest and highest scalar.
-    pub(crate) start: f32,
-    pub(crate) end: f32,
-    /// Extinction at `start`, and its slope.
-    pub(crate) extinction: [f32; 2],
-    /// Color at `start`, and its slope.
-    pub(crate) color: [[f32; 3]; 2],
 }
 
 /// A piece as lines through an anchor, f64.

@@ -1,4 +1,4 @@
-//! Set-up: a tetrahedron becomes a record of planes in f32, about a reference inside it.
+//! A cell ready to be drawn: planes in f32, about a reference inside it.
 //!
 //! What is linear on the screen is the nearness: 1/depth in a perspective view, minus the depth in an orthographic one.
 //! Each face's nearness is a plane over the pixels; a ray is inside between the nearest of the entry faces' planes and the farthest of
@@ -8,23 +8,10 @@
 //! - chord length, in units of the reference depth and of the ray's stretch: `(e_f - e_b) / ((1 + e_f) (1 + e_b))`;
 //! - scalar: `(G - k e) / (1 + e)` with `G` linear in the pixels. Without the denominators when orthographic.
 
-use fearless_simd::dispatch;
-use glam::{DVec2, DVec3};
-use tetrascope_classify::{DepthPlane, cut_at_depth};
-use tetrascope_mesh::CellId;
-
-use super::fan::{Fan, FanSetUp};
-use super::optics::{CellPieces, Optics};
-use super::{CpuRenderer, Outline};
-use crate::geometry::{ClipCell, PixelBox, PixelSpace, Points, is_outside_rectangle};
+use super::cell::{CarefulCell, CellPieces, Outline};
+use super::fan::Fan;
+use crate::geometry::{PixelBox, PixelSpace, is_outside_rectangle};
 use crate::grid::Tile;
-
-/// A face counts as steep when its plane, over the cell's pixels, runs through this many times the cell's own range of nearness: then
-/// rounding in f32 is 3e-7 times as much of the cell's chord, and the cell is drawn in f64 instead.
-const STEEP: f64 = 256.0;
-
-/// A cell whose nearest point is closer than this share of its farthest is drawn in f64: it reaches the plane of the eye, or nearly.
-const NEAR: f64 = 1e-2;
 
 /// A cell, ready to be drawn; two cache lines.
 #[derive(Clone, Copy, Debug)]
@@ -44,7 +31,7 @@ pub(crate) struct CellRecord {
     pub(crate) length: f64,
     /// The reference pixel: column and row.
     pub(crate) pixel: [u16; 2],
-    outline: Outline,
+    pub(crate) outline: Outline,
     pub(crate) pieces: CellPieces,
     /// How many of the planes are of entry faces, 1 to 3; 0 for a cell to be drawn carefully.
     pub(crate) entry_count: u32,
@@ -53,31 +40,9 @@ pub(crate) struct CellRecord {
 }
 
 impl CellRecord {
-    pub(crate) fn outline(&self) -> PixelBox {
+    pub(crate) fn pixel_box(&self) -> PixelBox {
         self.outline.map(u32::from)
     }
-}
-
-/// A cell before set-up.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Cell {
-    /// In pixel space, in ascending order of the vertices.
-    pub(crate) corners: [DVec3; 4],
-    pub(crate) scalars: [f64; 4],
-    /// Whether the volume in that order is positive.
-    pub(crate) is_positive: bool,
-    pub(crate) outline: Outline,
-    pub(crate) pieces: CellPieces,
-}
-
-/// Cells that are fetched together before they are set up.
-const BATCH: usize = 32;
-
-/// Corners and scalars of a cell that is drawn in f64, in ascending order of the vertices.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct CarefulCell {
-    pub(crate) corners: [DVec3; 4],
-    pub(crate) clip: ClipCell,
 }
 
 /// The records of a run of cells in visibility order.
@@ -101,211 +66,5 @@ impl Records {
         let corners = &self.careful[record.careful as usize].corners;
         // Half a pixel of margin: rounding moves an outline by far less.
         !is_outside_rectangle(corners, [u0 - 0.5, u1 + 0.5], [w0 - 0.5, w1 + 0.5])
-    }
-}
-
-/// What set-up needs to know.
-pub(crate) struct SetUp<'a> {
-    pub(crate) renderer: &'a CpuRenderer,
-    pub(crate) points: &'a Points,
-    pub(crate) space: &'a PixelSpace,
-    /// One a cell of the mesh.
-    pub(crate) outlines: &'a [Outline],
-    pub(crate) optics: &'a Optics,
-    /// Whether the integration is defined on fans of triangles.
-    pub(crate) with_fans: bool,
-}
-
-/// Fans have no place on the screen for what lies behind the eye: cells are cut at this share of their farthest depth.
-const FAN_NEAR: f64 = 1e-4;
-
-impl SetUp<'_> {
-    /// Sets up cells in the order given; those without volume are left out. What was in `records` gives its memory.
-    pub(crate) fn fill(&self, cells: &[CellId], records: &mut Records) {
-        records.cells.clear();
-        records.careful.clear();
-        records.fans.clear();
-        dispatch!(self.renderer.level, _simd => self.fill_here(cells, records));
-    }
-
-    /// [`Self::fill`], compiled for the processor's instructions.
-    #[inline(always)]
-    fn fill_here(&self, cells: &[CellId], records: &mut Records) {
-        let mut vertices = Vec::with_capacity(BATCH);
-        let mut batch = Vec::with_capacity(BATCH);
-        for cells in cells.chunks(BATCH) {
-            // Cells and points lie scattered in memory. Fetched for many cells at once, their latencies overlap.
-            vertices.clear();
-            vertices.extend(cells.iter().map(|&cell| self.renderer.tetrahedra[cell.index()]));
-            batch.clear();
-            for (&cell, [a, b, c, d]) in cells.iter().zip(&vertices) {
-                let [a, b, c, d] = self.points.gather([a.0, b.0, c.0, d.0]);
-                batch.push(Cell {
-                    corners: [a.position, b.position, c.position, d.position],
-                    scalars: [a.scalar, b.scalar, c.scalar, d.scalar],
-                    is_positive: self.renderer.is_positive[cell.index()],
-                    outline: self.outlines[cell.index()],
-                    pieces: self.optics.pieces_of(cell),
-                });
-            }
-            for cell in &batch {
-                if self.with_fans {
-                    self.add_with_fan(cell, records);
-                } else {
-                    self.add(cell, records);
-                }
-            }
-        }
-    }
-
-    /// Adds a cell's record, if it has volume.
-    #[inline(always)]
-    fn add(&self, cell: &Cell, records: &mut Records) {
-        let record = self.record(cell).or_else(|| {
-            let clip = ClipCell::new(&cell.corners, &cell.scalars, cell.is_positive)?;
-            records.careful.push(CarefulCell { corners: cell.corners, clip });
-            Some(self.careful_record(cell, records.careful.len() - 1))
-        });
-        records.cells.extend(record);
-    }
-
-    /// Adds a cell's record and its fan; a cell that reaches the plane of the eye is cut there into cells that do not.
-    fn add_with_fan(&self, cell: &Cell, records: &mut Records) {
-        let space = self.space;
-        let fans = FanSetUp { space, transfer: self.optics.transfer(), model: self.optics.model };
-        let mut add = |cell: &Cell| {
-            self.add(cell, records);
-            if let Some(record) = records.cells.get(records.fans.len()) {
-                let [u, w] = [0, 1].map(|i| PixelSpace::center(u32::from(record.pixel[i]), space.size[i]));
-                let depth = if space.is_perspective { record.length / space.world_per_depth } else { 1.0 };
-                records.fans.push(fans.fan(cell, DVec2::new(u, w), depth));
-            }
-        };
-        let farthest = cell.corners.iter().fold(f64::NEG_INFINITY, |m, p| m.max(p.z));
-        let depth = if space.is_perspective { FAN_NEAR * farthest } else { 0.0 };
-        if cell.corners.iter().all(|p| p.z >= depth) {
-            add(cell);
-            return;
-        }
-        let (mut corners, mut scalars) = (cell.corners, cell.scalars);
-        if !cell.is_positive {
-            corners.swap(2, 3);
-            scalars.swap(2, 3);
-        }
-        let ids = if cell.is_positive { [0, 1, 2, 3] } else { [0, 1, 3, 2] };
-        let plane = DepthPlane { origin: DVec3::ZERO, forward: DVec3::Z, depth };
-        for piece in cut_at_depth(&corners, &scalars, ids, &plane).pieces() {
-            add(&Cell { corners: piece.positions, scalars: piece.scalars, is_positive: true, ..*cell });
-        }
-    }
-
-    /// The record of a cell that f32 can draw; `None` if it cannot.
-    #[inline(always)]
-    fn record(&self, cell: &Cell) -> Option<CellRecord> {
-        let &Cell { corners: [a, b, c, d], scalars, is_positive, outline, pieces } = cell;
-        let is_perspective = self.space.is_perspective;
-        let nearest = a.z.min(b.z).min(c.z).min(d.z);
-        let farthest = a.z.max(b.z).max(c.z).max(d.z);
-        if nearest <= if is_perspective { NEAR * farthest } else { 0.0 } {
-            return None;
-        }
-        // Outward normals, and what they make of the edge from the first corner.
-        let sign = if is_positive { 1.0 } else { -1.0 };
-        let (ab, ac, ad) = ((b - a) * sign, c - a, d - a);
-        let n1 = -ac.cross(ad) * sign;
-        let n2 = ab.cross(ad);
-        let n3 = -ab.cross(ac);
-        let n0 = -(n1 + n2 + n3);
-        let six_volume = -n1.dot(b - a);
-        if !(six_volume > 0.0 && six_volume.is_finite()) {
-            return None;
-        }
-
-        let [x0, x1, y0, y1] = outline.map(u32::from);
-        let pixel = [(x0 + x1) / 2, (y0 + y1) / 2];
-        let [u, w] =
-            [PixelSpace::center(pixel[0], self.space.size[0]), PixelSpace::center(pixel[1], self.space.size[1])];
-        let depth = (a.z + b.z + c.z + d.z) * 0.25;
-        let (reference, across) =
-            if is_perspective { (DVec3::new(u, w, 1.0) * depth, depth) } else { (DVec3::new(u, w, depth), 1.0) };
-        let nearness_range = if is_perspective {
-            [depth / farthest - 1.0, depth / nearest - 1.0]
-        } else {
-            [depth - farthest, depth - nearest]
-        };
-        let limit = STEEP * (nearness_range[1] - nearness_range[0]);
-        let half = [f64::from(x1 - x0) * 0.5 + 4.0, f64::from(y1 - y0) * 0.5 + 4.0];
-
-        let from_b = reference - b;
-        let from_a = reference - a;
-        let mut planes = [[0.0_f32; 3]; 4];
-        let (mut entry, mut exit) = (0, 3);
-        for (normal, point, from) in [(n0, b, from_b), (n1, a, from_a), (n2, a, from_a), (n3, a, from_a)] {
-            let away = if is_perspective { normal.dot(point) } else { normal.z };
-            let inverse = 1.0 / away;
-            let plane = [normal.dot(from) * inverse, normal.x * across * inverse, normal.y * across * inverse];
-            let steepness = plane[0].abs() + plane[1].abs() * half[0] + plane[2].abs() * half[1];
-            // NaN where a face is seen exactly edge-on.
-            if steepness > limit || steepness.is_nan() {
-                return None;
-            }
-            let slot = if away < 0.0 { &mut entry } else { &mut exit };
-            // Four entry faces, or none, are rounding: no ray has room between.
-            if *slot > 3 {
-                return None;
-            }
-            planes[*slot] = plane.map(|x| x as f32);
-            if away < 0.0 { entry += 1 } else { exit = exit.wrapping_sub(1) }
-        }
-        if entry == 0 || entry == 4 {
-            return None;
-        }
-
-        let gradient =
-            -(n1 * (scalars[1] - scalars[0]) + n2 * (scalars[2] - scalars[0]) + n3 * (scalars[3] - scalars[0]))
-                / six_volume;
-        let scalar_reference = scalars[0] + gradient.dot(from_a);
-        let low = scalars.iter().fold(f64::INFINITY, |m, &s| m.min(s));
-        let high = scalars.iter().fold(f64::NEG_INFINITY, |m, &s| m.max(s));
-        let along = if is_perspective { gradient.dot(reference) } else { gradient.z };
-        let scalar = [gradient.x * across, gradient.y * across, along];
-        let scalar_limit = STEEP * (high - low);
-        if !(scalar[0].abs() * half[0] + scalar[1].abs() * half[1] <= scalar_limit
-            && along.abs() * (nearness_range[1] - nearness_range[0]) <= scalar_limit)
-        {
-            return None;
-        }
-        Some(CellRecord {
-            planes,
-            scalar: scalar.map(|x| x as f32),
-            nearness_range: nearness_range.map(|x| x as f32),
-            scalar_range: [(low - scalar_reference) as f32, (high - scalar_reference) as f32],
-            scalar_reference,
-            length: self.space.world_per_depth * across,
-            pixel: pixel.map(|p| p as u16),
-            outline,
-            pieces,
-            entry_count: entry as u32,
-            careful: 0,
-        })
-    }
-
-    fn careful_record(&self, cell: &Cell, careful: usize) -> CellRecord {
-        let &Cell { scalars, outline, pieces, .. } = cell;
-        let low = scalars.iter().fold(f64::INFINITY, |m, &s| m.min(s));
-        let high = scalars.iter().fold(f64::NEG_INFINITY, |m, &s| m.max(s));
-        CellRecord {
-            planes: [[0.0; 3]; 4],
-            scalar: [0.0; 3],
-            nearness_range: [0.0; 2],
-            scalar_range: [0.0, (high - low) as f32],
-            scalar_reference: low,
-            length: self.space.world_per_depth,
-            pixel: [outline[0].midpoint(outline[1]), outline[2].midpoint(outline[3])],
-            outline,
-            pieces,
-            entry_count: 0,
-            careful: careful as u32,
-        }
     }
 }

@@ -4,12 +4,13 @@ use fearless_simd::{Level, Simd, dispatch, f32x8, prelude::*};
 use tetrascope_integrate::{Integration, OpticalModel};
 use tetrascope_scene::Plan;
 
-use super::lanes::{BLOCK_HEIGHT, BLOCK_WIDTH, BlockRange, CoverList, LANES, Sample, careful_sample, lanes_from};
+use super::careful::careful_sample;
+use super::cover::{BlockRange, CoverList};
+use super::model::{Absorption, DensityEmitter, Emission, Emitter, Model};
 use super::optics::Optics;
 use super::record::{CellRecord, Records};
-use super::shade::{
-    Absorption, Average, CellOptics, DensityEmitter, Emission, Emitter, Exact, Light, Method, Model, Vertex,
-};
+use super::sample::{BLOCK_HEIGHT, BLOCK_WIDTH, LANES, Light, Sample, lanes_from};
+use super::shade::{Average, CellOptics, Exact, Method, Vertex};
 use crate::geometry::PixelSpace;
 use crate::grid::{Bins, Tile, TileGrid};
 
@@ -79,7 +80,7 @@ impl Pixels {
     /// The blocks that a cell may cover; its outline touches the tile.
     #[inline(always)]
     fn range(&self, tile: Tile, record: &CellRecord) -> BlockRange {
-        let [x0, x1, y0, y1] = record.outline();
+        let [x0, x1, y0, y1] = record.pixel_box();
         let column = (x0.max(tile.x) - tile.x) / BLOCK_WIDTH;
         let row = (y0.max(tile.y) - tile.y) / BLOCK_HEIGHT;
         let last_column = (x1.min(tile.x + tile.width - 1) - tile.x) / BLOCK_WIDTH;
