@@ -4,7 +4,7 @@ use std::path::Path;
 use std::time::Duration;
 
 use serde_json::{Map, Value, json};
-use tetrascope::{Completed, Plan, Projection, Rendered, Volume, VolumeField, short};
+use tetrascope::{Backend, Completed, Plan, Projection, Rendered, Volume, VolumeField, short};
 
 /// Collects what was done; people read it line by line as it happens, machines at the end.
 #[derive(Debug)]
@@ -100,7 +100,12 @@ impl Report {
             .collect();
         self.put("decisions", json!(decisions));
         self.put("integration", json!(plan.integration.to_string()));
-        self.put("order", json!(plan.order.to_string()));
+        // The reference takes no order of cells: it sorts along every ray.
+        let order = match plan.backend {
+            Backend::Reference => "per-pixel".to_owned(),
+            Backend::Cpu => plan.order.to_string(),
+        };
+        self.put("order", json!(order));
         self.put("model", json!(plan.model.to_string()));
         self.put("backend", json!(plan.backend.to_string()));
         self.put("threads", json!(used));

@@ -55,6 +55,12 @@ fn mix<S: Simd>(
     rgb
 }
 
+/// Optical depths that a segment would have with the extinction of its front, and of its back, all along.
+#[inline(always)]
+fn end_depths<S: Simd>(simd: S, piece: &LocalPiece, [front, back]: [f32x8<S>; 2], length: f32x8<S>) -> [f32x8<S>; 2] {
+    [at(simd, piece.extinction, front) * length, at(simd, piece.extinction, back) * length]
+}
+
 /// All three channels times one number.
 #[inline(always)]
 fn times<S: Simd>([r, g, b]: [f32x8<S>; 3], factor: f32x8<S>) -> [f32x8<S>; 3] {
@@ -67,8 +73,7 @@ impl Model for DensityEmitter {
 
     #[inline(always)]
     fn linear<S: Simd>(simd: S, piece: &LocalPiece, front: f32x8<S>, back: f32x8<S>, length: f32x8<S>) -> Light<S> {
-        let tau_front = at(simd, piece.extinction, front) * length;
-        let tau_back = at(simd, piece.extinction, back) * length;
+        let [tau_front, tau_back] = end_depths(simd, piece, [front, back], length);
         let weights = density_emitter_weights(simd, tau_front, tau_back);
         let rgb = mix(simd, piece, [front, back], [weights.front, weights.back]);
         Light { rgb, transmittance: weights.transmittance }
@@ -87,8 +92,7 @@ impl Model for Emitter {
 
     #[inline(always)]
     fn linear<S: Simd>(simd: S, piece: &LocalPiece, front: f32x8<S>, back: f32x8<S>, length: f32x8<S>) -> Light<S> {
-        let tau_front = at(simd, piece.extinction, front) * length;
-        let tau_back = at(simd, piece.extinction, back) * length;
+        let [tau_front, tau_back] = end_depths(simd, piece, [front, back], length);
         let weights = emitter_weights(simd, tau_front, tau_back);
         let rgb = mix(simd, piece, [front, back], [weights.front * length, weights.back * length]);
         Light { rgb, transmittance: weights.transmittance }
