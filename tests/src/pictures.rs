@@ -65,18 +65,8 @@ pub const WHITE: &[[f64; 4]] = &[[0.0, 1.0, 1.0, 1.0]];
 /// # Panics
 /// If the control points make no transfer function.
 pub fn plan(view: View, color: &[[f64; 4]], extinction: &[[f64; 2]]) -> Plan {
-    Plan {
-        view,
-        background: [0.0; 3],
-        transfer: TransferFunction::new(color, extinction).expect("the control points are good"),
-        model: OpticalModel::DensityEmitter,
-        integration: Integration::Exact,
-        order: OrderMethod::Centroid,
-        backend: Backend::Cpu,
-        threads: None,
-        termination: 0.0,
-        decisions: Vec::new(),
-    }
+    let transfer = TransferFunction::new(color, extinction).expect("the control points are good");
+    Plan::new(view, transfer, OpticalModel::DensityEmitter)
 }
 
 /// A random turn, each as likely.

@@ -90,16 +90,12 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
             settings.push(Setting {
                 name: format!("{integration}, {transfer_name}"),
                 plan: Plan {
-                    view: View::new(&camera(0.0), args.size, args.size)?,
-                    background: [0.0; 3],
-                    transfer: transfer.clone(),
-                    model: OpticalModel::DensityEmitter,
                     integration,
-                    order: OrderMethod::Centroid,
-                    backend: Backend::Cpu,
-                    threads: None,
-                    termination: 0.0,
-                    decisions: Vec::new(),
+                    ..Plan::new(
+                        View::new(&camera(0.0), args.size, args.size)?,
+                        transfer.clone(),
+                        OpticalModel::DensityEmitter,
+                    )
                 },
                 times: Vec::new(),
                 stages: Vec::new(),

@@ -27,6 +27,12 @@ pub enum RenderError {
         "the reference clips rays and has no fan of triangles, on which \"vertex\" is defined; use \"exact\", or the back end \"cpu\""
     )]
     IntegrationNeedsFan,
+    /// The back end has not got the integration yet.
+    #[error("this back end has not got the integration \"{integration}\" yet; use \"exact\"")]
+    NotBuilt {
+        /// The integration.
+        integration: tetrascope_integrate::Integration,
+    },
     /// The operating system gave no threads.
     #[error("{threads} threads could not be started: {problem}; ask for fewer")]
     Threads {

@@ -13,10 +13,9 @@
 //! ```
 //! use glam::DVec3;
 //! use tetrascope_cpu::CpuRenderer;
-//! use tetrascope_integrate::{Integration, OpticalModel, TransferFunction};
+//! use tetrascope_integrate::{OpticalModel, TransferFunction};
 //! use tetrascope_mesh::TetMesh;
-//! use tetrascope_order::OrderMethod;
-//! use tetrascope_scene::{Backend, Plan, Silent};
+//! use tetrascope_scene::{Plan, Silent};
 //! use tetrascope_view::{Camera, Projection, View};
 //!
 //! let corners = [DVec3::ZERO, DVec3::X, DVec3::Y, DVec3::Z];
@@ -27,18 +26,8 @@
 //!     up: DVec3::Y,
 //!     projection: Projection::Perspective { fov_y: 0.5 },
 //! };
-//! let plan = Plan {
-//!     view: View::new(&camera, 64, 64)?,
-//!     background: [0.0; 3],
-//!     transfer: TransferFunction::new(&[[0.0, 0.9, 0.6, 0.2]], &[[0.0, 2.0]])?,
-//!     model: OpticalModel::DensityEmitter,
-//!     integration: Integration::Exact,
-//!     order: OrderMethod::Centroid,
-//!     backend: Backend::Cpu,
-//!     threads: None,
-//!     termination: 0.0,
-//!     decisions: Vec::new(),
-//! };
+//! let transfer = TransferFunction::new(&[[0.0, 0.9, 0.6, 0.2]], &[[0.0, 2.0]])?;
+//! let plan = Plan::new(View::new(&camera, 64, 64)?, transfer, OpticalModel::DensityEmitter);
 //! let rendered = CpuRenderer::new(&mesh, &[0.0, 1.0, 2.0, 3.0])?.render(&plan, &Silent)?;
 //! assert!(rendered.image.pixel(32, 32)[3] > 0.1);
 //! # Ok::<(), Box<dyn std::error::Error>>(())

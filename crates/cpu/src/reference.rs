@@ -34,6 +34,7 @@ pub fn render(mesh: &TetMesh, scalars: &[f64], plan: &Plan, progress: &dyn Progr
         Integration::Exact => exact,
         Integration::Average => average,
         Integration::Vertex => return Err(RenderError::IntegrationNeedsFan),
+        integration => return Err(RenderError::NotBuilt { integration }),
     };
     on_threads(plan.threads, || render_here(mesh, scalars, plan, integrate, progress))
 }

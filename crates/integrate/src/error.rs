@@ -2,6 +2,8 @@
 
 use thiserror::Error;
 
+use crate::{Integration, OpticalModel};
+
 /// Why control points do not make a transfer function.
 #[derive(Clone, Debug, Error, PartialEq)]
 #[non_exhaustive]
@@ -66,14 +68,37 @@ pub enum NameError {
         /// The names that are there.
         known: String,
     },
-    /// The scene file's contract has the name, this version has not the method.
-    #[error("{what} \"{name}\" is not there yet; use one of {known}")]
-    NotThereYet {
-        /// What was looked for.
+}
+
+/// Why a way to integrate cannot be used.
+#[derive(Clone, Debug, Error, PartialEq)]
+#[non_exhaustive]
+pub enum MethodError {
+    /// The method's derivation does not hold for the optical model.
+    #[error(
+        "integration \"{integration}\" has no meaning with the optical model \"{model}\"; use one of {alternatives}"
+    )]
+    ModelNotCovered {
+        /// The method.
+        integration: Integration,
+        /// The model.
+        model: OpticalModel,
+        /// The methods that do, quoted.
+        alternatives: String,
+    },
+    /// A fan of triangles is needed, and there is only a ray.
+    #[error("integration \"vertex\" is defined on a fan of triangles and has no meaning along a single ray")]
+    NeedsFan,
+    /// A table's size is out of range.
+    #[error("a table with {size} {what} is not possible; give {least} to {most}")]
+    TableSize {
+        /// What is counted: `"scalars"` or `"lengths"`.
         what: &'static str,
-        /// The name that was given.
-        name: String,
-        /// The names that are there.
-        known: String,
+        /// The number given.
+        size: u32,
+        /// The least number.
+        least: u32,
+        /// The largest number.
+        most: u32,
     },
 }

@@ -1,9 +1,10 @@
-//! Optical models, the ways to integrate them, and their names in scene files.
+//! Optical models and their names in scene files.
 
 use core::fmt;
 use core::str::FromStr;
 
 use crate::NameError;
+use crate::method::quoted;
 
 /// What a volume does to light: the equation for the radiance `I` along a ray, towards the eye.
 ///
@@ -83,62 +84,6 @@ impl FromStr for OpticalModel {
     }
 }
 
-/// How the light of a segment is computed from the scalars at its ends.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-pub enum Integration {
-    /// Color and opacity at the vertices of the projected cell, interpolated between: [`crate::thick_vertex`].
-    Vertex,
-    /// The transfer function at the mean scalar: [`crate::average`].
-    Average,
-    /// The closed form for each piece of the transfer function: [`crate::exact`].
-    #[default]
-    Exact,
-}
-
-impl Integration {
-    /// All ways that are there, the cheapest first.
-    pub const ALL: [Self; 3] = [Self::Vertex, Self::Average, Self::Exact];
-
-    /// Names that the scene file's contract has and that are not there yet.
-    const NOT_THERE_YET: [&str; 5] = ["opacity-2d", "table-2d", "table-3d", "partial", "cumulative"];
-
-    /// The name in a scene file.
-    pub const fn name(self) -> &'static str {
-        match self {
-            Self::Vertex => "vertex",
-            Self::Average => "average",
-            Self::Exact => "exact",
-        }
-    }
-}
-
-impl fmt::Display for Integration {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.pad(self.name())
-    }
-}
-
-impl FromStr for Integration {
-    type Err = NameError;
-
-    /// `auto` is no way to integrate but a wish to have one chosen: whoever chooses takes it out before.
-    fn from_str(name: &str) -> Result<Self, NameError> {
-        if let Some(found) = Self::ALL.into_iter().find(|integration| integration.name() == name) {
-            return Ok(found);
-        }
-        let (what, name, known) = ("integration", name.to_owned(), quoted(Self::ALL.map(Self::name)));
-        if Self::NOT_THERE_YET.contains(&name.as_str()) {
-            Err(NameError::NotThereYet { what, name, known })
-        } else {
-            Err(NameError::Unknown { what, name, known })
-        }
-    }
-}
-
-fn quoted<const N: usize>(names: [&str; N]) -> String {
-    names.map(|name| format!("\"{name}\"")).join(", ")
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -148,19 +93,6 @@ mod tests {
         for model in OpticalModel::ALL {
             assert_eq!(model.to_string().parse(), Ok(model));
         }
-        for integration in Integration::ALL {
-            assert_eq!(integration.to_string().parse(), Ok(integration));
-        }
-    }
-
-    #[test]
-    fn names_of_the_contract_without_a_method_say_so() {
-        for name in Integration::NOT_THERE_YET {
-            let message = name.parse::<Integration>().unwrap_err().to_string();
-            assert!(message.contains("is not there yet") && message.contains("\"exact\""), "{message}");
-        }
-        let message = "exakt".parse::<Integration>().unwrap_err().to_string();
-        assert!(message.starts_with("unknown integration \"exakt\""), "{message}");
         assert!("fog".parse::<OpticalModel>().unwrap_err().to_string().contains("\"density-emitter\""));
     }
 

@@ -59,7 +59,10 @@ pub use file::{
 pub use finite::{FieldOnMesh, place_on_mesh};
 #[cfg(feature = "file")]
 pub use parse::{Position, SceneSyntaxError, WriteSceneError};
-pub use plan::{Backend, Decision, Plan, Progress, Silent, Stage, UnknownBackend};
+pub use plan::{
+    Backend, Decision, Gradients, IsosurfaceMethod, IsosurfacePlan, Lighting, Mixing, Plan, Progress, Silent, Stage,
+    UnknownBackend,
+};
 pub use scene::Scene;
 pub use text::short;
 

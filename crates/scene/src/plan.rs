@@ -3,7 +3,10 @@
 use std::fmt;
 use std::str::FromStr;
 
-use tetrascope_integrate::{Integration, OpticalModel, TransferFunction};
+use glam::DVec3;
+use tetrascope_integrate::{
+    Integration, Isosurfaces, OpticalModel, Phong, SurfaceShading, TableSettings, TransferFunction,
+};
 use tetrascope_order::OrderMethod;
 use tetrascope_view::View;
 
@@ -22,6 +25,13 @@ pub struct Plan {
     pub model: OpticalModel,
     /// How a ray's segment inside one cell becomes color and opacity.
     pub integration: Integration,
+    /// Sizes of the table that the integration looks light up in; `None` takes the usual ones, see
+    /// [`Plan::table_settings`].
+    pub tables: Option<TableSettings>,
+    /// Surfaces of one value in the volume; `None` if there are none, and then nothing of them is computed.
+    pub isosurfaces: Option<IsosurfacePlan>,
+    /// The light; `None` if nothing is lit, and then no gradient is computed.
+    pub lighting: Option<Lighting>,
     /// In which order cells are blended.
     pub order: OrderMethod,
     /// Who computes.
@@ -33,6 +43,102 @@ pub struct Plan {
     pub termination: f32,
     /// What was chosen and what was left out, with the reason.
     pub decisions: Vec<Decision>,
+}
+
+/// Isosurfaces, and how they are drawn.
+#[derive(Clone, Debug, PartialEq)]
+pub struct IsosurfacePlan {
+    /// The surfaces; at least one.
+    pub surfaces: Isosurfaces,
+    /// How a ray meets them.
+    pub method: IsosurfaceMethod,
+}
+
+/// How isosurfaces are found along a ray and mixed with the volume.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum IsosurfaceMethod {
+    /// Crossings by analysis: the segment is cut there, and the volume integrated in front of and behind each surface.
+    #[default]
+    Exact,
+    /// Looked up in maps over the scalars at both ends ([Röttger 2000], sections 7 to 9).
+    Map {
+        /// Samples along each side of the map.
+        size: u32,
+        /// How the volume comes in.
+        mixing: Mixing,
+    },
+}
+
+/// How isosurfaces out of maps are mixed with the volume ([Röttger 2000], section 10).
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Mixing {
+    /// The whole cell's volume is blended between a pass for the back faces and one for the front faces, weighted by how near
+    /// the surface is to each. Works with every integration.
+    Smooth,
+    /// The integral stops at the surface, in the table itself. Needs an integration by table.
+    Stopped,
+}
+
+/// The light in a scene in which something is lit.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Lighting {
+    /// How much of it comes back.
+    pub phong: Phong,
+    /// From the surface towards the light, world coordinates, of length 1; `None` is a light at the eye.
+    pub direction: Option<DVec3>,
+    /// Whether the volume is lit too, by its gradients ([Marroquim 2008], figure 11 b).
+    pub volume: bool,
+}
+
+/// Which gradients a plan needs.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Gradients {
+    /// None are computed.
+    None,
+    /// The constant one of each cell.
+    Cells,
+    /// One a point, interpolated inside the cells.
+    Points,
+}
+
+impl Plan {
+    /// A plan of the plainest kind: exact integration, centroid order, CPU, black background, no isosurface, no light,
+    /// every pixel drawn to its end.
+    pub fn new(view: View, transfer: TransferFunction, model: OpticalModel) -> Self {
+        Self {
+            view,
+            background: [0.0; 3],
+            transfer,
+            model,
+            integration: Integration::Exact,
+            tables: None,
+            isosurfaces: None,
+            lighting: None,
+            order: OrderMethod::Centroid,
+            backend: Backend::Cpu,
+            threads: None,
+            termination: 0.0,
+            decisions: Vec::new(),
+        }
+    }
+
+    /// Sizes of the integration's table: those of the plan, else [`TableSettings::of`] the method; `None` if it has none.
+    pub fn table_settings(&self) -> Option<TableSettings> {
+        let usual = TableSettings::of(self.integration)?;
+        Some(self.tables.unwrap_or(usual))
+    }
+
+    /// The gradients that its light needs.
+    pub fn gradients(&self) -> Gradients {
+        let Some(lighting) = &self.lighting else { return Gradients::None };
+        let of_surfaces = self.isosurfaces.as_ref().map(|isosurfaces| isosurfaces.surfaces.shading());
+        match of_surfaces {
+            _ if lighting.volume => Gradients::Points,
+            Some(SurfaceShading::Smooth) => Gradients::Points,
+            Some(SurfaceShading::Flat) => Gradients::Cells,
+            Some(SurfaceShading::None) | None => Gradients::None,
+        }
+    }
 }
 
 /// One choice that led to a plan.

@@ -1,6 +1,6 @@
 //! A scene with nothing left open, and the plan that follows from it.
 
-use tetrascope_integrate::{Integration, OpticalModel, TransferFunction};
+use tetrascope_integrate::{Integration, OpticalModel, TableSettings, TransferFunction};
 use tetrascope_order::OrderMethod;
 use tetrascope_view::{Camera, View};
 
@@ -71,6 +71,9 @@ impl Scene {
             transfer,
             model: self.model,
             integration,
+            tables: TableSettings::of(integration),
+            isosurfaces: None,
+            lighting: None,
             order,
             backend: self.backend,
             threads: self.threads,

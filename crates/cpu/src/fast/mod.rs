@@ -125,6 +125,9 @@ impl CpuRenderer {
     /// # Errors
     /// [`RenderError::Threads`] if the plan asks for threads that cannot be started.
     pub fn render(&self, plan: &Plan, progress: &dyn Progress) -> Result<Rendered, RenderError> {
+        if !matches!(plan.integration, Integration::Vertex | Integration::Average | Integration::Exact) {
+            return Err(RenderError::NotBuilt { integration: plan.integration });
+        }
         on_threads(plan.threads, || self.render_here(plan, progress))
     }
 

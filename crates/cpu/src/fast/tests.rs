@@ -26,18 +26,8 @@ fn plan(extinction: &[[f64; 2]]) -> Plan {
         up: DVec3::Y,
         projection: Projection::Perspective { fov_y: 0.4 },
     };
-    Plan {
-        view: View::new(&camera, 40, 40).unwrap(),
-        background: [0.0; 3],
-        transfer: TransferFunction::new(&[[0.0, 0.9, 0.5, 0.1], [9.0, 0.1, 0.5, 0.9]], extinction).unwrap(),
-        model: OpticalModel::DensityEmitter,
-        integration: Integration::Exact,
-        order: OrderMethod::Centroid,
-        backend: Backend::Cpu,
-        threads: None,
-        termination: 0.0,
-        decisions: Vec::new(),
-    }
+    let transfer = TransferFunction::new(&[[0.0, 0.9, 0.5, 0.1], [9.0, 0.1, 0.5, 0.9]], extinction).unwrap();
+    Plan::new(View::new(&camera, 40, 40).unwrap(), transfer, OpticalModel::DensityEmitter)
 }
 
 #[test]

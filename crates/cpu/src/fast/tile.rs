@@ -113,7 +113,7 @@ impl Job<'_> {
         match self.plan.integration {
             Integration::Vertex => self.draw_with::<Vertex>(index, pixels),
             Integration::Average => self.draw_with::<Average>(index, pixels),
-            Integration::Exact => self.draw_with::<Exact>(index, pixels),
+            _ => self.draw_with::<Exact>(index, pixels),
         }
     }
 
