@@ -3,7 +3,7 @@
 use glam::{DQuat, DVec3};
 use tetrascope::mesh::TetMesh;
 use tetrascope::{
-    Backend, Camera, CpuRenderer, Integration, LinearImage, OpticalModel, OrderMethod, Plan, Projection, Silent,
+    Backend, Camera, CpuRenderer, Integration, LinearImage, OpticalModel, Plan, Projection, Silent,
     TransferFunction, View, reference,
 };
 

@@ -48,6 +48,19 @@ impl PixelSpace {
         DVec3::new(from_eye.dot(self.right), from_eye.dot(self.down), from_eye.dot(self.forward))
     }
 
+    /// A gradient over pixel space as one over lengths along the camera's axes: right, down, forward.
+    pub(crate) fn gradient_in_view(&self, gradient: DVec3) -> DVec3 {
+        let depth_unit = if self.is_perspective { 1.0 } else { self.slope[1] };
+        gradient / DVec3::new(self.slope[0], self.slope[1], depth_unit)
+    }
+
+    /// A direction along the mesh's axes as one along the camera's: right, down, forward.
+    pub(crate) fn direction_in_view(&self, direction: DVec3) -> DVec3 {
+        let depth_unit = if self.is_perspective { 1.0 } else { self.slope[1] };
+        let [right, down] = [self.right * self.slope[0], self.down * self.slope[1]];
+        DVec3::new(direction.dot(right), direction.dot(down), direction.dot(self.forward) * depth_unit)
+    }
+
     /// Coordinate of the center of column (or row) `pixel` from the middle of a picture `size` pixels wide. Exact.
     #[inline]
     pub(crate) fn center(pixel: u32, size: u32) -> f64 {

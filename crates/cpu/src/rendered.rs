@@ -31,6 +31,8 @@ pub struct Counts {
     pub careful: u64,
     /// Pairs of a pixel and a tetrahedron whose chord was integrated.
     pub fragments: u64,
+    /// Isosurfaces met by rays.
+    pub crossings: u64,
 }
 
 /// Measures stages one after another.

@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use crate::TetMesh;
+use crate::{TetMesh, VertexId};
 
 /// The gradient of a field at every point: the mean of the constant gradients of the tetrahedra around it, weighted by
 /// their volumes.
@@ -13,7 +13,18 @@ use crate::TetMesh;
 /// slivers: a tetrahedron adds its gradient times its volume, which needs no division by a small number. Points that
 /// no such tetrahedron uses get zero.
 pub fn vertex_gradients(mesh: &TetMesh, scalars: &[f64]) -> Vec<DVec3> {
-    let positions = mesh.positions();
+    let scale = mesh.frame().scale;
+    let mut gradients = point_gradients(mesh.positions(), mesh.tetrahedra(), scalars);
+    for gradient in &mut gradients {
+        *gradient /= scale;
+    }
+    gradients
+}
+
+/// [`vertex_gradients`] of tetrahedra that are no [`TetMesh`]: their corners may go round either way.
+///
+/// In field units per unit of the positions.
+pub fn point_gradients(positions: &[DVec3], tetrahedra: &[[VertexId; 4]], scalars: &[f64]) -> Vec<DVec3> {
     // In units of a power of two near the largest scalar, so that differences of huge values stay finite.
     let largest = scalars.iter().filter(|s| s.is_finite()).fold(0.0_f64, |largest, s| largest.max(s.abs()));
     let unit = if largest > 0.0 { largest.log2().floor().clamp(-1000.0, 1000.0).exp2() } else { 1.0 };
@@ -21,7 +32,7 @@ pub fn vertex_gradients(mesh: &TetMesh, scalars: &[f64]) -> Vec<DVec3> {
 
     // Per point: the sum of gradient × 6 volume, and of 6 volume.
     let mut sums = vec![(DVec3::ZERO, 0.0); positions.len()];
-    for tetrahedron in mesh.tetrahedra() {
+    for tetrahedron in tetrahedra {
         let corners = tetrahedron.map(|v| positions[v.index()]);
         let values = tetrahedron.map(|v| scalar(v.index()));
         if !values.iter().all(|s| s.is_finite()) {
@@ -32,15 +43,16 @@ pub fn vertex_gradients(mesh: &TetMesh, scalars: &[f64]) -> Vec<DVec3> {
         let (bc, ca, ab) = (b.cross(c), c.cross(a), a.cross(b));
         let gradient_times_volume6 = bc * da + ca * db + ab * dc;
         let volume6 = a.dot(bc);
+        // Both turn their sign with the order of the corners.
+        let sign = volume6.signum();
         for vertex in tetrahedron {
             let (gradients, volumes) = &mut sums[vertex.index()];
-            *gradients += gradient_times_volume6;
-            *volumes += volume6;
+            *gradients += gradient_times_volume6 * sign;
+            *volumes += volume6 * sign;
         }
     }
-    let scale = mesh.frame().scale;
     let mean = |(gradients, volumes): (DVec3, f64)| {
-        if volumes > 0.0 { gradients / volumes * unit / scale } else { DVec3::ZERO }
+        if volumes > 0.0 { gradients / volumes * unit } else { DVec3::ZERO }
     };
     sums.into_iter().map(mean).collect()
 }

@@ -47,7 +47,7 @@ pub use dataset::{ArrayValues, CellKind, Cells, DataArray, Dataset, StructuredBl
 pub use decompose::{AddedPoint, Decomposition, DecompositionCounts, cell_data_to_points, decompose};
 pub use error::MeshError;
 pub use frame::Frame;
-pub use gradient::vertex_gradients;
+pub use gradient::{point_gradients, vertex_gradients};
 pub use ids::{CellId, FaceId, VertexId};
 pub use sample::rings_sample;
 pub use tet_mesh::TetMesh;

@@ -18,7 +18,7 @@ fn rows<S: Simd>(simd: S, record: &CellRecord, y: u32) -> f32x8<S> {
     f32x8::from_slice(simd, &LANE_ROW) + (y as i32 - i32::from(record.pixel[1])) as f32
 }
 
-/// What a cell has in the block at `(x, y)`, in f64: scalars from `reference`, depths between, nearness.
+/// What a cell has in the block at `(x, y)`, in f64: scalars from `reference`, depth between, nearness, depths.
 #[inline(always)]
 fn careful_lanes<S: Simd>(
     simd: S,
@@ -26,7 +26,7 @@ fn careful_lanes<S: Simd>(
     reference: f64,
     space: &PixelSpace,
     [x, y]: [u32; 2],
-) -> Option<[[f32; LANES]; 4]> {
+) -> Option<[[f32; LANES]; 6]> {
     let from = |first: u32, offsets: &[f32; LANES], size: u32| {
         let first = PixelSpace::center(first, size);
         f64x8::load_array(simd, offsets.map(|offset| first + f64::from(offset)))
@@ -82,7 +82,14 @@ fn careful_lanes<S: Simd>(
     };
     let length = leave - enter;
     let nearness = if space.is_perspective { covered.select(length / (enter * leave), splat(0.0)) } else { length };
-    Some([scalar_at(enter), scalar_at(leave), length.to_f32s(), nearness.to_f32s()])
+    Some([
+        scalar_at(enter),
+        scalar_at(leave),
+        length.to_f32s(),
+        nearness.to_f32s(),
+        enter.to_f32s(),
+        leave.to_f32s(),
+    ])
 }
 
 /// Eight numbers in 32 bits.
@@ -101,8 +108,8 @@ impl<S: Simd> ToF32s for f64x8<S> {
 
 /// [`careful_lanes`] pixel by pixel, for rays that may run in a face.
 #[cold]
-fn careful_pixels(cell: &ClipCell, reference: f64, space: &PixelSpace, [x, y]: [u32; 2]) -> Option<[[f32; LANES]; 4]> {
-    let mut lanes = [[0.0; LANES]; 4];
+fn careful_pixels(cell: &ClipCell, reference: f64, space: &PixelSpace, [x, y]: [u32; 2]) -> Option<[[f32; LANES]; 6]> {
+    let mut lanes = [[0.0; LANES]; 6];
     let mut any = false;
     for lane in 0..LANES {
         let (column, row) = (x + lane as u32 % BLOCK_WIDTH, y + lane as u32 / BLOCK_WIDTH);
@@ -110,7 +117,8 @@ fn careful_pixels(cell: &ClipCell, reference: f64, space: &PixelSpace, [x, y]: [
         if let Some(span) = cell.span(space.is_perspective, u, w) {
             let length = span.depth[1] - span.depth[0];
             let nearness = if space.is_perspective { length / (span.depth[0] * span.depth[1]) } else { length };
-            let values = [span.scalar[0] - reference, span.scalar[1] - reference, length, nearness];
+            let [[enter, leave], [front, back]] = [span.depth, span.scalar];
+            let values = [front - reference, back - reference, length, nearness, enter, leave];
             for (lanes, value) in lanes.iter_mut().zip(values) {
                 lanes[lane] = value as f32;
             }
@@ -129,8 +137,9 @@ pub(crate) fn careful_sample<S: Simd>(
     space: &PixelSpace,
     [x, y]: [u32; 2],
 ) -> Option<Sample<S>> {
-    let [front, back, length, nearness] = careful_lanes(simd, &cell.clip, record.scalar_reference, space, [x, y])?
+    let [front, back, length, nearness, enter, leave] = careful_lanes(simd, &cell.clip, record.scalar_reference, space, [x, y])?
         .map(|lane| f32x8::load_array(simd, lane));
     let covered = length.simd_gt(f32x8::splat(simd, 0.0));
-    Some(Sample { front, back, length, nearness, place: [columns(simd, record, x), rows(simd, record, y)], covered })
+    let place = [columns(simd, record, x), rows(simd, record, y)];
+    Some(Sample { front, back, length, nearness, depth: [enter, leave], place, covered })
 }

@@ -96,14 +96,15 @@ impl CoverList {
 
     /// Gives every listed block's number and sample.
     #[inline(always)]
-    pub(crate) fn each<S: Simd, const PERSPECTIVE: bool>(
+    pub(crate) fn each<S: Simd>(
         &self,
         simd: S,
         record: &CellRecord,
+        is_perspective: bool,
         mut visit: impl FnMut(usize, Sample<S>),
     ) {
         for item in &self.items[..self.count.min(MAX_BLOCKS)] {
-            visit(item.block as usize, item.sample::<S, PERSPECTIVE>(simd, record));
+            visit(item.block as usize, item.sample(simd, record, is_perspective));
         }
     }
 }
@@ -117,7 +118,7 @@ fn over<S: Simd>(simd: S, plane: &[f32; 3], columns: f32x8<S>, rows: f32x8<S>) -
 
 impl Cover {
     #[inline(always)]
-    fn sample<S: Simd, const PERSPECTIVE: bool>(&self, simd: S, record: &CellRecord) -> Sample<S> {
+    fn sample<S: Simd>(&self, simd: S, record: &CellRecord, is_perspective: bool) -> Sample<S> {
         let columns = f32x8::from_slice(simd, &LANE_COLUMN) + self.place[0];
         let rows = f32x8::from_slice(simd, &LANE_ROW) + self.place[1];
         let (entry, exit) = (f32x8::from_slice(simd, &self.entry), f32x8::from_slice(simd, &self.exit));
@@ -133,15 +134,17 @@ impl Cover {
         let back = slope.mul_add(exit, across);
         let [low, high] = record.scalar_range;
         let nearness = entry - exit;
-        let (front, back, length) = if PERSPECTIVE {
+        let reference = f32x8::splat(simd, record.depth);
+        let (front, back, length, depth) = if is_perspective {
             // One division serves both ends.
             let (at_entry, at_exit) = (entry + 1.0, exit + 1.0);
             let inverse = f32x8::splat(simd, 1.0) / (at_entry * at_exit);
-            (front * (inverse * at_exit), back * (inverse * at_entry), nearness * inverse)
+            let [nearer, farther] = [inverse * at_exit, inverse * at_entry];
+            (front * nearer, back * farther, nearness * inverse, [reference * nearer, reference * farther])
         } else {
-            (front, back, nearness)
+            (front, back, nearness, [reference - entry, reference - exit])
         };
         let (front, back) = (front.max(low).min(high), back.max(low).min(high));
-        Sample { front, back, length, nearness, place: [columns, rows], covered }
+        Sample { front, back, length, nearness, depth, place: [columns, rows], covered }
     }
 }

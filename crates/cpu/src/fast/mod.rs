@@ -13,26 +13,30 @@
 mod careful;
 mod cell;
 mod cover;
+mod effects;
 mod fan;
+mod gradient;
+mod maps;
+mod methods;
 mod model;
 mod optics;
 mod record;
 mod sample;
 mod setup;
-mod shade;
+mod surfaces;
 mod tile;
 
 use std::sync::atomic::{AtomicU64, Ordering};
-use std::sync::{Arc, Mutex, PoisonError};
+use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
 use fearless_simd::Level;
 use glam::DVec3;
 use rayon::prelude::*;
 
-use tetrascope_integrate::Integration;
-use tetrascope_mesh::{CellId, Frame, TetMesh, VertexId};
+use tetrascope_integrate::{Integration, Isosurfaces};
+use tetrascope_mesh::{CellId, Frame, TetMesh, VertexId, point_gradients};
 use tetrascope_order::Cells;
-use tetrascope_scene::{Plan, Progress, Stage};
+use tetrascope_scene::{Gradients, Plan, Progress, Stage};
 use tetrascope_view::LinearImage;
 
 use crate::error::{check_scalars, on_threads};
@@ -41,6 +45,7 @@ use crate::grid::{Bins, TileGrid};
 use crate::rendered::Stopwatch;
 use crate::{Counts, RenderError, Rendered};
 use cell::{NOWHERE, Outline};
+use effects::Effects;
 use optics::Optics;
 use record::{CellRecord, Records};
 use setup::SetUp;
@@ -74,6 +79,8 @@ pub struct CpuRenderer {
     level: Level,
     /// Of the last transfer functions, the latest first.
     optics: Mutex<Vec<Arc<Optics>>>,
+    /// One a point, along the mesh's axes; only if a plan asked for them.
+    gradients: OnceLock<Vec<DVec3>>,
     /// Memory of the last frame: asking the system for it anew costs a fifth of a frame.
     scratch: Mutex<Option<Scratch>>,
 }
@@ -114,6 +121,7 @@ impl CpuRenderer {
             is_positive,
             level: Level::new(),
             optics: Mutex::new(Vec::new()),
+            gradients: OnceLock::new(),
             scratch: Mutex::new(None),
         })
     }
@@ -133,11 +141,17 @@ impl CpuRenderer {
 
     fn render_here(&self, plan: &Plan, progress: &dyn Progress) -> Rendered {
         let mut watch = Stopwatch::start();
-        let optics = self.optics(plan);
-        watch.lap(Stage::Prepare);
-
         let view = plan.view.in_frame(self.frame.origin, self.frame.scale);
         let space = PixelSpace::new(&view, self.frame.scale);
+        let surfaces = self.surfaces(plan);
+        let optics = self.optics(plan, &surfaces);
+        let effects = Effects::new(plan, &surfaces, &space);
+        let gradients = match &effects {
+            Some(effects) if effects.gradients == Gradients::Points => self.gradients(),
+            _ => &[],
+        };
+        watch.lap(Stage::Prepare);
+
         let mut scratch = self.scratch.lock().unwrap_or_else(PoisonError::into_inner).take().unwrap_or_default();
         let Scratch { points, outlines, records, tiles } = &mut scratch;
         points.project(&space, &self.positions, &self.scalars);
@@ -155,7 +169,9 @@ impl CpuRenderer {
         watch.lap(Stage::Order);
 
         let with_fans = plan.integration == Integration::Vertex;
-        let setup = SetUp { renderer: self, points, space: &space, outlines, optics: &optics, with_fans };
+        let effects = effects.as_ref();
+        let setup =
+            SetUp { renderer: self, points, space: &space, outlines, optics: &optics, with_fans, effects, gradients };
         records.resize_with(order.front_to_back.len().div_ceil(CHUNK), Records::default);
         records
             .par_iter_mut()
@@ -174,12 +190,15 @@ impl CpuRenderer {
             .collect();
         watch.lap(Stage::Bin);
 
-        let fragments = AtomicU64::new(0);
+        let (fragments, crossings) = (AtomicU64::new(0), AtomicU64::new(0));
         let done = AtomicU64::new(0);
-        let job = tile::Job { records, bins: &bins, grid, space: &space, optics: &optics, plan, level: self.level };
+        let job =
+            tile::Job { records, bins: &bins, grid, space: &space, optics: &optics, plan, effects, level: self.level };
         tiles.resize_with(grid.len(), tile::Pixels::default);
         tiles.par_iter_mut().enumerate().with_max_len(1).for_each(|(index, pixels)| {
-            fragments.fetch_add(job.draw(index, pixels), Ordering::Relaxed);
+            let drawn = job.draw(index, pixels);
+            fragments.fetch_add(drawn.fragments, Ordering::Relaxed);
+            crossings.fetch_add(drawn.crossings, Ordering::Relaxed);
             progress.report(Stage::Rasterize, done.fetch_add(1, Ordering::Relaxed) + 1, grid.len() as u64);
         });
         let mut image = LinearImage::transparent(space.size[0], space.size[1]);
@@ -203,20 +222,33 @@ impl CpuRenderer {
             drawn,
             careful: records.iter().map(|r| r.careful.len() as u64).sum(),
             fragments: fragments.into_inner(),
+            crossings: crossings.into_inner(),
         };
         *self.scratch.lock().unwrap_or_else(PoisonError::into_inner) = Some(scratch);
         Rendered { image, timings: watch.finish(), counts }
     }
 
+    /// The isosurfaces that are to be seen, in the renderer's unit.
+    fn surfaces(&self, plan: &Plan) -> Isosurfaces {
+        plan.isosurfaces.as_ref().map_or_else(Isosurfaces::default, |isosurfaces| {
+            isosurfaces.surfaces.visible().with_scalars_scaled(self.scalar_factor)
+        })
+    }
+
+    /// The gradient at every point, along the mesh's axes; computed when first asked for.
+    fn gradients(&self) -> &[DVec3] {
+        self.gradients.get_or_init(|| point_gradients(&self.positions, &self.tetrahedra, &self.scalars))
+    }
+
     /// What the plan's transfer function makes of the cells; made anew only when it changed.
-    fn optics(&self, plan: &Plan) -> Arc<Optics> {
+    fn optics(&self, plan: &Plan, surfaces: &Isosurfaces) -> Arc<Optics> {
         let mut kept = self.optics.lock().unwrap_or_else(PoisonError::into_inner);
-        if let Some(place) = kept.iter().position(|optics| optics.is_for(&plan.transfer, plan.model)) {
+        if let Some(place) = kept.iter().position(|optics| optics.is_for(&plan.transfer, plan.model, surfaces)) {
             // The last one used stays longest.
             kept[..=place].rotate_right(1);
         } else {
             let (factor, model) = (self.scalar_factor, plan.model);
-            let optics = Optics::new(&plan.transfer, factor, model, &self.tetrahedra, &self.scalars);
+            let optics = Optics::new(&plan.transfer, factor, model, surfaces, &self.tetrahedra, &self.scalars);
             kept.insert(0, Arc::new(optics));
             kept.truncate(KEPT_OPTICS);
         }

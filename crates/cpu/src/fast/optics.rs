@@ -1,7 +1,7 @@
 //! What a transfer function makes of the cells: which are invisible, and which pieces of it each one sees.
 
 use rayon::prelude::*;
-use tetrascope_integrate::{OpticalModel, Piece, TransferFunction};
+use tetrascope_integrate::{Isosurfaces, OpticalModel, Piece, TransferFunction};
 use tetrascope_mesh::{CellId, VertexId};
 
 use super::cell::{CellPieces, LocalPiece};
@@ -19,6 +19,8 @@ pub(crate) struct Optics {
     lines: Vec<Line>,
     /// One entry a cell.
     pieces: Vec<CellPieces>,
+    /// Isosurfaces, over scalars in the renderer's unit.
+    surfaces: Isosurfaces,
     /// The cells that add something to the picture, ascending.
     visible: Vec<CellId>,
 }
@@ -67,11 +69,13 @@ impl Line {
 }
 
 impl Optics {
+    /// - `surfaces`: those that are to be seen, in the renderer's unit
     /// - `scalars`: one a point, in the renderer's unit: those of the plan times `factor`
     pub(crate) fn new(
         source: &TransferFunction,
         factor: f64,
         model: OpticalModel,
+        surfaces: &Isosurfaces,
         tetrahedra: &[[VertexId; 4]],
         scalars: &[f64],
     ) -> Self {
@@ -90,7 +94,11 @@ impl Optics {
             .collect();
         let is_visible = |cell: &[VertexId; 4]| {
             let (low, high) = range(cell);
-            (model.needs_extinction() && transfer.max_extinction(low, high) > 0.0)
+            // A surface of the lowest value is crossed by rays that come from a neighbor with lower ones.
+            let surfaces = surfaces.as_slice();
+            let next = surfaces.partition_point(|surface| surface.value < low);
+            surfaces.get(next).is_some_and(|surface| surface.value <= high)
+                || (model.needs_extinction() && transfer.max_extinction(low, high) > 0.0)
                 || (!model.is_dark_without_extinction() && transfer.max_emission(low, high) > 0.0)
         };
         let visible = (0..tetrahedra.len() as u32)
@@ -99,12 +107,13 @@ impl Optics {
             .map(CellId)
             .collect();
         let lines = transfer.pieces().iter().map(Line::new).collect();
-        Self { source: source.clone(), transfer, model, lines, pieces, visible }
+        Self { source: source.clone(), transfer, model, lines, pieces, surfaces: surfaces.clone(), visible }
     }
 
-    /// Whether these are the optics of that transfer function.
-    pub(crate) fn is_for(&self, transfer: &TransferFunction, model: OpticalModel) -> bool {
-        self.model == model && self.source == *transfer
+    /// Whether these are the optics of that transfer function, and of surfaces of these values.
+    pub(crate) fn is_for(&self, transfer: &TransferFunction, model: OpticalModel, surfaces: &Isosurfaces) -> bool {
+        let values = |surfaces: &Isosurfaces| surfaces.as_slice().iter().map(|s| s.value).collect::<Vec<_>>();
+        self.model == model && self.source == *transfer && values(&self.surfaces) == values(surfaces)
     }
 
     pub(crate) fn visible(&self) -> &[CellId] {

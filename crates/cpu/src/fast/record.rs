@@ -9,7 +9,9 @@
 //! - scalar: `(G - k e) / (1 + e)` with `G` linear in the pixels. Without the denominators when orthographic.
 
 use super::cell::{CarefulCell, CellPieces, Outline};
+use super::effects::CellEffects;
 use super::fan::Fan;
+use super::gradient::CellGradient;
 use crate::geometry::{PixelBox, PixelSpace, is_outside_rectangle};
 use crate::grid::Tile;
 
@@ -37,7 +39,14 @@ pub(crate) struct CellRecord {
     pub(crate) entry_count: u32,
     /// For a cell to be drawn carefully: its number in [`Records::careful`].
     pub(crate) careful: u32,
+    /// Its number in [`Records::effects`], or [`NO_EFFECTS`].
+    pub(crate) effects: u32,
+    /// Depth of the reference in pixel space.
+    pub(crate) depth: f32,
 }
+
+/// The number of the effects of a cell that is drawn as volume alone.
+pub(crate) const NO_EFFECTS: u32 = u32::MAX;
 
 impl CellRecord {
     pub(crate) fn pixel_box(&self) -> PixelBox {
@@ -52,6 +61,10 @@ pub(crate) struct Records {
     pub(crate) careful: Vec<CarefulCell>,
     /// One for each of `cells` where the integration asks for fans, else none.
     pub(crate) fans: Vec<Option<Fan>>,
+    /// What cells have besides their volume; those that have it.
+    pub(crate) effects: Vec<CellEffects>,
+    /// Gradients of the same cells, where something is lit, else none.
+    pub(crate) gradients: Vec<CellGradient>,
 }
 
 impl Records {

@@ -3,13 +3,14 @@
 use fearless_simd::dispatch;
 use glam::{DVec2, DVec3};
 use tetrascope_classify::{DepthPlane, cut_at_depth};
-use tetrascope_mesh::CellId;
+use tetrascope_mesh::{CellId, VertexId};
 
 use super::CpuRenderer;
 use super::cell::{CarefulCell, Cell, Outline};
+use super::effects::Effects;
 use super::fan::FanSetUp;
 use super::optics::Optics;
-use super::record::{CellRecord, Records};
+use super::record::{CellRecord, NO_EFFECTS, Records};
 use crate::geometry::{ClipCell, PixelSpace, Points};
 
 /// A face counts as steep when its plane, over the cell's pixels, runs through this many times the cell's own range of nearness: then
@@ -32,6 +33,10 @@ pub(crate) struct SetUp<'a> {
     pub(crate) optics: &'a Optics,
     /// Whether the integration is defined on fans of triangles.
     pub(crate) with_fans: bool,
+    /// Isosurfaces and light, if there are any.
+    pub(crate) effects: Option<&'a Effects>,
+    /// The gradient at every point, along the mesh's axes, where they are interpolated.
+    pub(crate) gradients: &'a [DVec3],
 }
 
 /// Fans have no place on the screen for what lies behind the eye: cells are cut at this share of their farthest depth.
@@ -43,6 +48,8 @@ impl SetUp<'_> {
         records.cells.clear();
         records.careful.clear();
         records.fans.clear();
+        records.effects.clear();
+        records.gradients.clear();
         dispatch!(self.renderer.level, _simd => self.fill_here(cells, records));
     }
 
@@ -66,11 +73,15 @@ impl SetUp<'_> {
                     pieces: self.optics.pieces_of(cell),
                 });
             }
-            for cell in &batch {
+            for (cell, vertices) in batch.iter().zip(&vertices) {
+                let before = records.cells.len();
                 if self.with_fans {
                     self.add_with_fan(cell, records);
                 } else {
                     self.add(cell, records);
+                }
+                if let Some(effects) = self.effects {
+                    self.add_effects(effects, cell, vertices, before, records);
                 }
             }
         }
@@ -85,6 +96,24 @@ impl SetUp<'_> {
             Some(self.careful_record(cell, records.careful.len() - 1))
         });
         records.cells.extend(record);
+    }
+
+    /// Adds a cell's effects and makes the records that it has become, from `first` on, point to them.
+    fn add_effects(
+        &self,
+        effects: &Effects,
+        cell: &Cell,
+        vertices: &[VertexId; 4],
+        first: usize,
+        records: &mut Records,
+    ) {
+        let Some(of_cell) = effects.of_cell(&cell.scalars, cell.corners.map(|p| p.z)) else { return };
+        for record in &mut records.cells[first..] {
+            record.effects = records.effects.len() as u32;
+        }
+        records.effects.push(of_cell);
+        let at_points = || vertices.map(|v| self.gradients[v.index()]);
+        records.gradients.extend(effects.gradient(cell, at_points, self.space));
     }
 
     /// Adds a cell's record and its fan; a cell that reaches the plane of the eye is cut there into cells that do not.
@@ -205,6 +234,8 @@ impl SetUp<'_> {
             pieces,
             entry_count: entry as u32,
             careful: 0,
+            effects: NO_EFFECTS,
+            depth: depth as f32,
         })
     }
 
@@ -224,6 +255,8 @@ impl SetUp<'_> {
             pieces,
             entry_count: 0,
             careful: careful as u32,
+            effects: NO_EFFECTS,
+            depth: 0.0,
         }
     }
 }

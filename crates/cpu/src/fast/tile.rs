@@ -5,12 +5,15 @@ use tetrascope_integrate::{Integration, OpticalModel};
 use tetrascope_scene::Plan;
 
 use super::careful::careful_sample;
+use super::cell::CellPieces;
 use super::cover::{BlockRange, CoverList};
+use super::effects::{Effects, LocalSurface};
+use super::methods::{Average, CellOptics, Ends, Exact, Method, Partial, Vertex};
 use super::model::{Absorption, DensityEmitter, Emission, Emitter, Model};
 use super::optics::Optics;
-use super::record::{CellRecord, Records};
+use super::record::{CellRecord, NO_EFFECTS, Records};
 use super::sample::{BLOCK_HEIGHT, BLOCK_WIDTH, LANES, Light, Sample, lanes_from};
-use super::shade::{Average, CellOptics, Exact, Method, Vertex};
+use super::surfaces::{CellWithEffects, Joint};
 use crate::geometry::PixelSpace;
 use crate::grid::{Bins, Tile, TileGrid};
 
@@ -27,6 +30,8 @@ pub(crate) struct Job<'a> {
     pub(crate) space: &'a PixelSpace,
     pub(crate) optics: &'a Optics,
     pub(crate) plan: &'a Plan,
+    /// Isosurfaces and light, if there are any.
+    pub(crate) effects: Option<&'a Effects>,
     pub(crate) level: Level,
 }
 
@@ -43,6 +48,8 @@ struct Block {
 #[derive(Debug, Default)]
 pub(crate) struct Pixels {
     blocks: Vec<Block>,
+    /// One a block where there are isosurfaces or light, else none.
+    joints: Vec<Joint>,
     /// Blocks a row.
     columns: u32,
 }
@@ -52,19 +59,31 @@ struct Canvas<'a> {
     tile: Tile,
     pixels: &'a mut Pixels,
     covers: CoverList,
-    /// Pairs of a pixel and a cell so far.
-    fragments: u64,
+    done: Done,
+}
+
+/// What was drawn.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Done {
+    /// Pairs of a pixel and a cell.
+    pub(crate) fragments: u64,
+    /// Surfaces met by rays.
+    pub(crate) crossings: u64,
 }
 
 impl Pixels {
     /// Clears the pixels for a tile.
     #[inline(always)]
-    fn reset<S: Simd>(&mut self, simd: S, tile: Tile, space: &PixelSpace) {
+    fn reset<S: Simd>(&mut self, simd: S, tile: Tile, space: &PixelSpace, with_effects: bool) {
         let (columns, rows) = (tile.width.div_ceil(BLOCK_WIDTH), tile.height.div_ceil(BLOCK_HEIGHT));
         let nothing = Block { rgb: [[0.0; LANES]; 3], transmittance: [1.0; LANES], stretch: [1.0; LANES] };
         self.columns = columns;
         self.blocks.clear();
         self.blocks.resize((columns * rows) as usize, nothing);
+        self.joints.clear();
+        if with_effects {
+            self.joints.resize(self.blocks.len(), Joint::NONE);
+        }
         if !space.is_perspective {
             return;
         }
@@ -108,16 +127,22 @@ impl Pixels {
 }
 
 impl Job<'_> {
-    /// Draws a tile into `pixels`, whatever was there before; gives the number of fragments.
-    pub(crate) fn draw(&self, index: usize, pixels: &mut Pixels) -> u64 {
-        match self.plan.integration {
-            Integration::Vertex => self.draw_with::<Vertex>(index, pixels),
-            Integration::Average => self.draw_with::<Average>(index, pixels),
-            _ => self.draw_with::<Exact>(index, pixels),
+    /// Draws a tile into `pixels`, whatever was there before.
+    pub(crate) fn draw(&self, index: usize, pixels: &mut Pixels) -> Done {
+        use Integration as I;
+        use OpticalModel as O;
+        // Where several are one and the same, one is compiled.
+        match (self.plan.integration, self.optics.model) {
+            (I::Vertex, _) => self.draw_as::<Vertex, DensityEmitter>(index, pixels),
+            (I::Partial, O::DensityEmitter) => self.draw_as::<Partial, DensityEmitter>(index, pixels),
+            (I::Average, _) => self.draw_with::<Average>(index, pixels),
+            (I::Opacity2d | I::Partial, _) => self.draw_with::<Ends>(index, pixels),
+            (I::Cumulative | I::Exact, O::Absorption | O::Emission) => self.draw_with::<Exact>(index, pixels),
+            (I::Table2d | I::Table3d | I::Cumulative | I::Exact, _) => self.draw_with::<Exact>(index, pixels),
         }
     }
 
-    fn draw_with<I: Method>(&self, index: usize, pixels: &mut Pixels) -> u64 {
+    fn draw_with<I: Method>(&self, index: usize, pixels: &mut Pixels) -> Done {
         match self.optics.model {
             OpticalModel::DensityEmitter => self.draw_as::<I, DensityEmitter>(index, pixels),
             OpticalModel::Emitter => self.draw_as::<I, Emitter>(index, pixels),
@@ -126,25 +151,16 @@ impl Job<'_> {
         }
     }
 
-    fn draw_as<I: Method, M: Model>(&self, index: usize, pixels: &mut Pixels) -> u64 {
-        if self.space.is_perspective {
-            dispatch!(self.level, simd => self.draw_tile::<_, I, M, true>(simd, index, pixels))
-        } else {
-            dispatch!(self.level, simd => self.draw_tile::<_, I, M, false>(simd, index, pixels))
-        }
+    fn draw_as<I: Method, M: Model>(&self, index: usize, pixels: &mut Pixels) -> Done {
+        dispatch!(self.level, simd => self.draw_tile::<_, I, M>(simd, index, pixels))
     }
 
     #[inline(always)]
-    fn draw_tile<S: Simd, I: Method, M: Model, const PERSPECTIVE: bool>(
-        &self,
-        simd: S,
-        index: usize,
-        pixels: &mut Pixels,
-    ) -> u64 {
+    fn draw_tile<S: Simd, I: Method, M: Model>(&self, simd: S, index: usize, pixels: &mut Pixels) -> Done {
         let tile = self.grid.tile(index);
-        pixels.reset(simd, tile, self.space);
-        let mut canvas = Canvas { tile, pixels, covers: CoverList::new(), fragments: 0 };
-        let mut pieces = Vec::new();
+        pixels.reset(simd, tile, self.space, self.effects.is_some());
+        let mut canvas = Canvas { tile, pixels, covers: CoverList::new(), done: Done::default() };
+        let (mut pieces, mut surfaces) = (Vec::new(), Vec::new());
         let mut batch = Vec::with_capacity(BATCH);
         for (records, bins) in self.records.iter().zip(self.bins) {
             for items in bins.of(index).chunks(BATCH) {
@@ -156,36 +172,62 @@ impl Job<'_> {
                     }
                     let fan = records.fans.get(item as usize).and_then(Option::as_ref);
                     let cell = CellOptics { pieces: &pieces, fan };
-                    self.draw_cell::<S, I, M, PERSPECTIVE>(simd, records, record, cell, &mut canvas);
+                    let with_effects = self.effects_of(records, record, &mut surfaces);
+                    self.draw_cell::<S, I, M>(simd, records, record, cell, with_effects.as_ref(), &mut canvas);
                 }
             }
         }
-        canvas.fragments
+        canvas.done
+    }
+
+    /// What a cell has besides its volume, if anything.
+    #[inline(always)]
+    fn effects_of<'a>(
+        &'a self,
+        records: &'a Records,
+        record: &'a CellRecord,
+        surfaces: &'a mut Vec<LocalSurface>,
+    ) -> Option<CellWithEffects<'a>> {
+        if record.effects == NO_EFFECTS {
+            return None;
+        }
+        let effects = self.effects?;
+        let number = record.effects as usize;
+        let of_cell = &records.effects[number];
+        effects.localize(record, of_cell, surfaces);
+        Some(CellWithEffects {
+            record,
+            surfaces,
+            range: CellPieces { first: of_cell.first, count: of_cell.count },
+            slack: of_cell.slack,
+            gradient: records.gradients.get(number),
+            lamp: effects.light.as_ref(),
+            space: self.space,
+        })
     }
 
     /// Blends one cell into the tile.
     #[inline(always)]
-    fn draw_cell<S: Simd, I: Method, M: Model, const PERSPECTIVE: bool>(
+    fn draw_cell<S: Simd, I: Method, M: Model>(
         &self,
         simd: S,
         records: &Records,
         record: &CellRecord,
         cell: CellOptics<'_>,
+        with_effects: Option<&CellWithEffects<'_>>,
         canvas: &mut Canvas<'_>,
     ) {
-        let Canvas { tile, pixels, covers, fragments } = canvas;
+        let Canvas { tile, pixels, covers, done } = canvas;
         let range = pixels.range(*tile, record);
-        let termination = self.plan.termination;
+        let brush = Brush { cell, with_effects, termination: self.plan.termination };
         if record.entry_count > 0 {
             covers.find(simd, record, range);
-            covers.each::<S, PERSPECTIVE>(
+            covers.each(
                 simd,
                 record,
+                self.space.is_perspective,
                 #[inline(always)]
-                |block, sample| {
-                    *fragments +=
-                        blend::<S, I, M, PERSPECTIVE>(simd, cell, sample, termination, &mut pixels.blocks[block]);
-                },
+                |block, sample| brush.blend::<S, I, M>(simd, sample, block, pixels, done),
             );
             return;
         }
@@ -195,39 +237,64 @@ impl Job<'_> {
                 let place = [range.pixel[0] + column * BLOCK_WIDTH, range.pixel[1] + row * BLOCK_HEIGHT];
                 if let Some(sample) = careful_sample(simd, careful, record, self.space, place) {
                     let block = (range.first + row * range.stride + column) as usize;
-                    *fragments +=
-                        blend::<S, I, M, PERSPECTIVE>(simd, cell, sample, termination, &mut pixels.blocks[block]);
+                    brush.blend::<S, I, M>(simd, sample, block, pixels, done);
                 }
             }
         }
     }
 }
 
-/// Puts a cell's light behind what a block has; gives the number of pixels covered, 0 where the block is opaque.
-#[inline(always)]
-fn blend<S: Simd, I: Method, M: Model, const PERSPECTIVE: bool>(
-    simd: S,
-    cell: CellOptics<'_>,
-    mut sample: Sample<S>,
+/// A cell that is being blended.
+struct Brush<'a> {
+    cell: CellOptics<'a>,
+    with_effects: Option<&'a CellWithEffects<'a>>,
     termination: f32,
-    block: &mut Block,
-) -> u64 {
-    let before = f32x8::from_slice(simd, &block.transmittance);
-    // What lies behind an opaque block is not seen.
-    if M::ABSORBS && !before.simd_ge(f32x8::splat(simd, termination)).any_true() {
-        return 0;
-    }
-    if PERSPECTIVE {
+}
+
+impl Brush<'_> {
+    /// Puts the cell's light behind what a block has, unless the block is opaque.
+    #[inline(always)]
+    fn blend<S: Simd, I: Method, M: Model>(
+        &self,
+        simd: S,
+        mut sample: Sample<S>,
+        number: usize,
+        pixels: &mut Pixels,
+        done: &mut Done,
+    ) {
+        let block = &mut pixels.blocks[number];
+        let before = f32x8::from_slice(simd, &block.transmittance);
+        // What lies behind an opaque block is not seen.
+        if (M::ABSORBS || self.with_effects.is_some())
+            && !before.simd_ge(f32x8::splat(simd, self.termination)).any_true()
+        {
+            return;
+        }
         sample.length *= f32x8::from_slice(simd, &block.stretch);
+        done.fragments += u64::from(sample.covered.to_bitmask().count_ones());
+        let Some(with_effects) = self.with_effects else {
+            let light = I::shade::<S, M>(simd, self.cell, &sample);
+            block.add(simd, before, light, M::EMITS, M::ABSORBS);
+            return;
+        };
+        let joint = &mut pixels.joints[number];
+        let (light, crossings) = with_effects.shade::<S, I, M>(simd, self.cell, &sample, joint);
+        done.crossings += crossings;
+        block.add(simd, before, light, true, true);
     }
-    let Light { rgb, transmittance } = I::shade::<S, M>(simd, cell, &sample);
-    if M::EMITS {
-        for (channel, color) in block.rgb.iter_mut().zip(rgb) {
-            before.mul_add(color, f32x8::from_slice(simd, channel)).store_slice(channel);
+}
+
+impl Block {
+    /// Puts light behind what is there; `before` is the block's transmittance.
+    #[inline(always)]
+    fn add<S: Simd>(&mut self, simd: S, before: f32x8<S>, light: Light<S>, emits: bool, absorbs: bool) {
+        if emits {
+            for (channel, color) in self.rgb.iter_mut().zip(light.rgb) {
+                before.mul_add(color, f32x8::from_slice(simd, channel)).store_slice(channel);
+            }
+        }
+        if absorbs {
+            (before * light.transmittance).store_slice(&mut self.transmittance);
         }
     }
-    if M::ABSORBS {
-        (before * transmittance).store_slice(&mut block.transmittance);
-    }
-    u64::from(sample.covered.to_bitmask().count_ones())
 }

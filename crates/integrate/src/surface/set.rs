@@ -115,6 +115,12 @@ impl Isosurfaces {
         self.surfaces.iter().all(|surface| surface.opacity == 1.0)
     }
 
+    /// Those that can be seen: without the ones of opacity 0.
+    #[must_use]
+    pub fn visible(&self) -> Self {
+        Self { surfaces: self.surfaces.iter().copied().filter(|surface| surface.opacity > 0.0).collect() }
+    }
+
     /// The same surfaces of a field in another unit: values at `factor` times theirs; `factor` is positive.
     #[must_use]
     pub fn with_scalars_scaled(&self, factor: f64) -> Self {

@@ -1,0 +1,130 @@
+//! What a cell has besides its volume: isosurfaces that may cut it, and light.
+
+use glam::DVec3;
+use tetrascope_integrate::lanes::PhongLanes;
+use tetrascope_integrate::{Isosurface, Isosurfaces, SurfaceShading};
+use tetrascope_scene::{Gradients, Plan};
+
+use super::maps::Maps;
+use super::record::CellRecord;
+use crate::geometry::PixelSpace;
+
+/// What a cell has besides its volume.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct CellEffects {
+    /// The isosurfaces whose values lie in its range of scalars: `first .. first + count`.
+    pub(crate) first: u32,
+    pub(crate) count: u32,
+    /// How far the depths of its faces may be off, so that a joint with the next cell is still seen as one; pixel space.
+    pub(crate) slack: f32,
+}
+
+/// Isosurfaces whose values lie this share of a cell's own range, or this share of the field's, beyond the cell's range count as
+/// inside: rounding may put a scalar at its faces there. Too many cost a little time and nothing else.
+const MARGIN: [f64; 2] = [1e-4, 1e-6];
+
+/// Depths are off by at most this share of a cell's own range of depths (a steep plane, see `STEEP` in set-up, has 2e-5 of it), and
+/// by this share of the depth itself (a few roundings).
+const SLACK: [f64; 2] = [1e-4, 1e-6];
+
+/// The isosurfaces and the light of a frame.
+#[derive(Debug)]
+pub(crate) struct Effects {
+    /// By ascending value, in the renderer's unit; those that are drawn along rays.
+    pub(crate) surfaces: Isosurfaces,
+    /// How they are drawn, where by maps.
+    pub(crate) maps: Option<Maps>,
+    pub(crate) light: Option<Light>,
+    pub(crate) gradients: Gradients,
+}
+
+/// The light of a frame, in the camera's axes: right, down, forward.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Light {
+    pub(crate) phong: PhongLanes,
+    /// From the surface towards the light, of length 1; `None` is a light at the eye.
+    pub(crate) direction: Option<[f32; 3]>,
+    /// Whether the volume is lit.
+    pub(crate) volume: bool,
+}
+
+/// An isosurface as one cell sees it: its value relative to the cell's reference.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct LocalSurface {
+    pub(crate) value: f32,
+    /// Of the side that faces rising scalars, and of the other.
+    pub(crate) colors: [[f32; 3]; 2],
+    pub(crate) opacity: f32,
+    pub(crate) is_lit: bool,
+}
+
+impl Light {
+    /// The light of a plan; `None` if nothing is lit.
+    pub(crate) fn new(plan: &Plan, space: &PixelSpace) -> Option<Self> {
+        let lighting = plan.lighting.filter(|_| plan.gradients() != Gradients::None)?;
+        let direction = lighting.direction.map(|d| space.direction_in_view(d).to_array().map(|x| x as f32));
+        Some(Self { phong: PhongLanes::new(&lighting.phong), direction, volume: lighting.volume })
+    }
+}
+
+impl Effects {
+    /// Those of a plan; `None` if it has none that are drawn along rays.
+    ///
+    /// - `surfaces`: those to be seen, in the renderer's unit
+    pub(crate) fn new(plan: &Plan, surfaces: &Isosurfaces, space: &PixelSpace) -> Option<Self> {
+        let light = Light::new(plan, space);
+        if surfaces.is_empty() && !light.is_some_and(|light| light.volume) {
+            return None;
+        }
+        Some(Self { surfaces: surfaces.clone(), maps: None, light, gradients: plan.gradients() })
+    }
+
+    /// Which cells have effects: those that an isosurface may cut, and all where the volume is lit.
+    ///
+    /// - `scalars`, `depths`: at the cell's corners, in the renderer's units
+    pub(crate) fn of_cell(&self, scalars: &[f64; 4], depths: [f64; 4]) -> Option<CellEffects> {
+        let bounds = |values: &[f64; 4]| {
+            values.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), &v| (low.min(v), high.max(v)))
+        };
+        let (low, high) = bounds(scalars);
+        // The field's range is about one in the renderer's unit.
+        let margin = MARGIN[0] * (high - low) + MARGIN[1];
+        let surfaces = self.surfaces.as_slice();
+        let first = surfaces.partition_point(|surface| surface.value < low - margin);
+        let count = surfaces[first..].partition_point(|surface| surface.value <= high + margin);
+        if count == 0 && !self.light.is_some_and(|light| light.volume) {
+            return None;
+        }
+        let (nearest, farthest) = bounds(&depths);
+        let slack = SLACK[0] * (farthest - nearest) + SLACK[1] * farthest.abs().max(nearest.abs());
+        Some(CellEffects { first: first as u32, count: count as u32, slack: slack as f32 })
+    }
+
+    /// The surfaces that may cut a cell, ascending, as it sees them.
+    pub(crate) fn localize(&self, record: &CellRecord, cell: &CellEffects, local: &mut Vec<LocalSurface>) {
+        let first = cell.first as usize;
+        let to_local = |surface: &Isosurface| LocalSurface {
+            value: (surface.value - record.scalar_reference) as f32,
+            colors: [surface.color, surface.back_color].map(|color| color.map(|c| c as f32)),
+            opacity: surface.opacity as f32,
+            is_lit: surface.shading != SurfaceShading::None,
+        };
+        local.clear();
+        local.extend(self.surfaces.as_slice()[first..first + cell.count as usize].iter().map(to_local));
+    }
+
+    /// The gradient of a cell with effects, where anything is lit.
+    pub(crate) fn gradient(
+        &self,
+        cell: &super::cell::Cell,
+        at_points: impl FnOnce() -> [DVec3; 4],
+        space: &PixelSpace,
+    ) -> Option<super::gradient::CellGradient> {
+        use super::gradient::CellGradient;
+        match self.gradients {
+            Gradients::None => None,
+            Gradients::Cells => Some(CellGradient::constant(cell, space)),
+            Gradients::Points => Some(CellGradient::linear(cell, at_points(), space)),
+        }
+    }
+}

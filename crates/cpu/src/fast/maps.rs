@@ -1,0 +1,4 @@
+//! Isosurfaces looked up in maps.
+
+#[derive(Debug)]
+pub(crate) struct Maps;

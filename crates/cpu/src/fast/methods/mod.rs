@@ -1,0 +1,67 @@
+//! From a block's segments to light: the integration methods on eight lanes, one a file.
+
+use fearless_simd::{Simd, f32x8, prelude::*};
+
+mod average;
+mod ends;
+mod exact;
+mod partial;
+mod vertex;
+
+pub(crate) use average::Average;
+pub(crate) use ends::Ends;
+pub(crate) use exact::Exact;
+pub(crate) use partial::Partial;
+pub(crate) use vertex::Vertex;
+
+use super::cell::LocalPiece;
+use super::fan::Fan;
+use super::model::{Model, at};
+use super::sample::{Light, Sample};
+
+/// What a method knows of a cell's optics.
+#[derive(Clone, Copy)]
+pub(crate) struct CellOptics<'a> {
+    /// The pieces of the transfer function that the cell meets, ascending; at least one.
+    pub(crate) pieces: &'a [LocalPiece],
+    /// Its fan of triangles, where the method asks for fans; `None` if its outline has no area.
+    pub(crate) fan: Option<&'a Fan>,
+}
+
+/// An integration method.
+pub(crate) trait Method {
+    /// Whether [`CellOptics::pieces`] is looked at.
+    const NEEDS_PIECES: bool;
+
+    /// The light of a block's segments through a cell.
+    fn shade<S: Simd, M: Model>(simd: S, cell: CellOptics<'_>, sample: &Sample<S>) -> Light<S>;
+}
+
+/// Extinction and color of a piece at a scalar.
+#[inline(always)]
+pub(crate) fn value<S: Simd>(simd: S, piece: &LocalPiece, scalar: f32x8<S>) -> (f32x8<S>, [f32x8<S>; 3]) {
+    let distance = scalar - f32x8::splat(simd, piece.start);
+    let [start, slope] = piece.color;
+    let mut color = [distance; 3];
+    for c in 0..3 {
+        color[c] = at(simd, [start[c], slope[c]], distance);
+    }
+    (at(simd, piece.extinction, distance), color)
+}
+
+/// Extinction and color at scalars within the cell's range: a search among its few pieces.
+#[inline(always)]
+fn transfer_at<S: Simd>(simd: S, pieces: &[LocalPiece], scalar: f32x8<S>) -> (f32x8<S>, [f32x8<S>; 3]) {
+    let (mut extinction, mut color) = value(simd, &pieces[0], scalar);
+    for piece in &pieces[1..] {
+        let is_here = scalar.simd_ge(f32x8::splat(simd, piece.start));
+        if is_here.any_true() {
+            let (rho, kappa) = value(simd, piece, scalar);
+            extinction = is_here.select(rho, extinction);
+            for c in 0..3 {
+                color[c] = is_here.select(kappa[c], color[c]);
+            }
+        }
+    }
+    (extinction, color)
+}

@@ -1,0 +1,264 @@
+//! Isosurfaces in a block of pixels: which the rays cross, and their light between the parts of the volume.
+//!
+//! A segment is cut where its scalar crosses a surface, volume is integrated in front of, between and behind the surfaces, and all is
+//! composed in the order along the ray. Nothing is extracted.
+//!
+//! Which surfaces are crossed follows from ranks: on which side of each surface the two ends of a segment lie. The rank at the
+//! entry is that of the exit before, where one cell begins at the depth at which the last one ended: so each surface
+//! is met exactly once on the way from one side to the other, whatever rounding does to the scalars at the joint. There is nothing to
+//! thicken, and no pixel is drawn twice.
+
+use fearless_simd::{Simd, f32x8, mask32x8, prelude::*};
+
+use super::cell::CellPieces;
+use super::effects::{Light as Lamp, LocalSurface};
+use super::gradient::CellGradient;
+use super::methods::{CellOptics, Method};
+use super::model::Model;
+use super::record::CellRecord;
+use super::sample::{LANES, Light, Sample};
+use crate::geometry::PixelSpace;
+
+/// Where the rays of a block last left a cell with surfaces.
+#[derive(Clone, Copy, Debug)]
+#[repr(C, align(32))]
+pub(crate) struct Joint {
+    /// Depth in pixel space.
+    depth: [f32; LANES],
+    /// How far it may be off.
+    slack: [f32; LANES],
+    /// Number of surfaces not above the scalar there; with maps, its texel.
+    rank: [f32; LANES],
+}
+
+impl Joint {
+    /// No cell yet: at no depth.
+    pub(crate) const NONE: Self =
+        Self { depth: [f32::NEG_INFINITY; LANES], slack: [0.0; LANES], rank: [0.0; LANES] };
+
+    /// The rank at the front: that of the exit before where the two are one place, else the cell's own. Remembers the exit.
+    #[inline(always)]
+    pub(crate) fn carry<S: Simd>(
+        &mut self,
+        simd: S,
+        sample: &Sample<S>,
+        slack: f32,
+        [front, back]: [f32x8<S>; 2],
+    ) -> f32x8<S> {
+        let load = |lanes: &[f32; LANES]| f32x8::from_slice(simd, lanes);
+        let (depth, slack_before, rank) = (load(&self.depth), load(&self.slack), load(&self.rank));
+        let slack = f32x8::splat(simd, slack);
+        let is_joint = (sample.depth[0] - depth).abs().simd_le(slack.max(slack_before));
+        let covered = sample.covered;
+        covered.select(sample.depth[1], depth).store_slice(&mut self.depth);
+        covered.select(slack, slack_before).store_slice(&mut self.slack);
+        covered.select(back, rank).store_slice(&mut self.rank);
+        is_joint.select(rank, front)
+    }
+}
+
+/// What a block needs to know of the cell that it draws with its effects.
+#[derive(Clone, Copy)]
+pub(crate) struct CellWithEffects<'a> {
+    pub(crate) record: &'a CellRecord,
+    /// The surfaces that may cut it, ascending.
+    pub(crate) surfaces: &'a [LocalSurface],
+    /// Their place among all surfaces.
+    pub(crate) range: CellPieces,
+    pub(crate) slack: f32,
+    /// Both where anything is lit.
+    pub(crate) gradient: Option<&'a CellGradient>,
+    pub(crate) lamp: Option<&'a Lamp>,
+    pub(crate) space: &'a PixelSpace,
+}
+
+/// The rays of a block: where they are, and from where they are seen.
+#[derive(Clone, Copy)]
+pub(crate) struct Rays<S: Simd> {
+    /// Pixel centers from the middle of the picture, in pixel space.
+    across: [f32x8<S>; 2],
+    /// Towards the eye, in the camera's axes, of length 1.
+    to_eye: [f32x8<S>; 3],
+    is_perspective: bool,
+}
+
+impl CellWithEffects<'_> {
+    /// The rays of the block of a sample.
+    #[inline(always)]
+    pub(crate) fn rays<S: Simd>(&self, simd: S, sample: &Sample<S>) -> Rays<S> {
+        let space = self.space;
+        let [u, w] = [0, 1].map(|i| PixelSpace::center(u32::from(self.record.pixel[i]), space.size[i]) as f32);
+        let across = [sample.place[0] + u, sample.place[1] + w];
+        let one = f32x8::splat(simd, 1.0);
+        let to_eye = if space.is_perspective {
+            let [x, y] = [across[0] * space.slope[0] as f32, across[1] * space.slope[1] as f32];
+            let inverse = one / x.mul_add(x, y.mul_add(y, one)).sqrt();
+            [-(x * inverse), -(y * inverse), -inverse]
+        } else {
+            [one * 0.0, one * 0.0, -one]
+        };
+        Rays { across, to_eye, is_perspective: space.is_perspective }
+    }
+
+    /// What the light makes of a surface, or of the volume, with the field's gradient at a depth as normal: the share of the color
+    /// that comes back, and the highlight.
+    #[inline(always)]
+    pub(crate) fn intensities<S: Simd>(&self, simd: S, rays: &Rays<S>, depth: f32x8<S>) -> Option<[f32x8<S>; 2]> {
+        let (gradient, lamp) = (self.gradient?, self.lamp?);
+        let [u, w] = rays.across;
+        let place = if rays.is_perspective { [u * depth, w * depth, depth] } else { [u, w, depth] };
+        let gradient = gradient.at(simd, place);
+        let to_light = lamp.direction.map_or(rays.to_eye, |direction| direction.map(|x| f32x8::splat(simd, x)));
+        Some(lamp.phong.intensities(simd, gradient, rays.to_eye, to_light))
+    }
+
+    /// The volume of a segment, lit if it is to be.
+    #[inline(always)]
+    pub(crate) fn lit<S: Simd>(&self, body: Option<[f32x8<S>; 2]>, mut light: Light<S>) -> Light<S> {
+        if let Some([body, highlight]) = body {
+            for channel in &mut light.rgb {
+                *channel *= body + highlight;
+            }
+        }
+        light
+    }
+
+    /// Ranks of both ends among the cell's surfaces.
+    #[inline(always)]
+    fn ranks<S: Simd>(&self, simd: S, sample: &Sample<S>, joint: &mut Joint) -> [f32x8<S>; 2] {
+        let (zero, one) = (f32x8::splat(simd, 0.0), f32x8::splat(simd, 1.0));
+        let (mut front, mut back) = (zero, zero);
+        for surface in self.surfaces {
+            let value = f32x8::splat(simd, surface.value);
+            front += sample.front.simd_ge(value).select(one, zero);
+            back += sample.back.simd_ge(value).select(one, zero);
+        }
+        // Among all surfaces, and back.
+        let first = self.range.first as f32;
+        let front = joint.carry(simd, sample, self.slack, [front + first, back + first]) - first;
+        [front.max(0.0).min(self.range.count as f32), back]
+    }
+
+    /// The light of a block, and the number of crossings.
+    #[inline(always)]
+    pub(crate) fn shade<S: Simd, I: Method, M: Model>(
+        &self,
+        simd: S,
+        cell: CellOptics<'_>,
+        sample: &Sample<S>,
+        joint: &mut Joint,
+    ) -> (Light<S>, u64) {
+        let rays = self.rays(simd, sample);
+        let of_volume = if self.lamp.is_some_and(|lamp| lamp.volume) {
+            self.intensities(simd, &rays, (sample.depth[0] + sample.depth[1]) * 0.5)
+        } else {
+            None
+        };
+        let (zero, one) = (f32x8::splat(simd, 0.0), f32x8::splat(simd, 1.0));
+        let [front_rank, back_rank] = self.ranks(simd, sample, joint);
+        let front_rank = sample.covered.select(front_rank, back_rank);
+        let (low_rank, high_rank) = (front_rank.min(back_rank), front_rank.max(back_rank));
+        let (mut first, mut last) = (0, 0);
+        let crosses = low_rank.simd_lt(high_rank);
+        if crosses.any_true() {
+            (first, last) = bounds(crosses, low_rank, high_rank);
+        }
+
+        let low = sample.front.min(sample.back);
+        let high = sample.front.max(sample.back);
+        let is_flat = high.simd_le(low);
+        let inverse = one / is_flat.select(one, high - low);
+        let rises = front_rank.simd_lt(back_rank) | (front_rank.simd_eq(back_rank) & sample.front.simd_le(sample.back));
+        let mut light = Light { rgb: [zero; 3], transmittance: one };
+        let mut crossings = 0;
+        // By ascending scalar: a part of the volume, the surface above it, the next part.
+        for index in first..=last {
+            let bottom = if index == first { f32::MIN } else { self.surfaces[index - 1].value };
+            let top = if index == last { f32::MAX } else { self.surfaces[index].value };
+            let from = low.max(bottom).min(high);
+            let to = high.min(top).max(low);
+            let share = if first == last {
+                one
+            } else {
+                // A segment of one scalar lies in one part, that of its exit.
+                let here = back_rank.simd_eq(f32x8::splat(simd, index as f32)).select(one, zero);
+                is_flat.select(here, (to - from).max(0.0) * inverse)
+            };
+            let length = sample.length * share;
+            if length.simd_gt(zero).any_true() {
+                let part = Sample { front: rises.select(from, to), back: rises.select(to, from), length, ..*sample };
+                let part = self.lit(of_volume, I::shade::<S, M>(simd, cell, &part));
+                compose(&mut light, part, rises);
+            }
+            if index < last {
+                let at = f32x8::splat(simd, index as f32);
+                let crossed = low_rank.simd_le(at) & high_rank.simd_gt(at);
+                crossings += u64::from(crossed.to_bitmask().count_ones());
+                let surface = self.surface(simd, &self.surfaces[index], sample, &rays, crossed, rises);
+                compose(&mut light, surface, rises);
+            }
+        }
+        (light, crossings)
+    }
+
+    /// The light of a surface in the lanes that cross it.
+    #[inline(always)]
+    fn surface<S: Simd>(
+        &self,
+        simd: S,
+        surface: &LocalSurface,
+        sample: &Sample<S>,
+        rays: &Rays<S>,
+        crossed: mask32x8<S>,
+        rises: mask32x8<S>,
+    ) -> Light<S> {
+        let (zero, one) = (f32x8::splat(simd, 0.0), f32x8::splat(simd, 1.0));
+        let opacity = crossed.select(f32x8::splat(simd, surface.opacity), zero);
+        let [falling, rising] = surface.colors;
+        let mut rgb = [opacity; 3];
+        for (c, channel) in rgb.iter_mut().enumerate() {
+            *channel = rises.select(f32x8::splat(simd, rising[c]), f32x8::splat(simd, falling[c])) * opacity;
+        }
+        if surface.is_lit {
+            let across = sample.back - sample.front;
+            let share = (f32x8::splat(simd, surface.value) - sample.front)
+                / across.simd_eq(zero).select(one, across);
+            let share = share.max(0.0).min(1.0);
+            let depth = share.mul_add(sample.depth[1] - sample.depth[0], sample.depth[0]);
+            if let Some([body, highlight]) = self.intensities(simd, rays, depth) {
+                for channel in &mut rgb {
+                    *channel = channel.mul_add(body, highlight * opacity);
+                }
+            }
+        }
+        Light { rgb, transmittance: one - opacity }
+    }
+}
+
+/// Puts light behind what is there where the scalar rises along the ray, else in front of it.
+#[inline(always)]
+pub(crate) fn compose<S: Simd>(light: &mut Light<S>, next: Light<S>, rises: mask32x8<S>) {
+    for (channel, next_channel) in light.rgb.iter_mut().zip(next.rgb) {
+        let behind = light.transmittance.mul_add(next_channel, *channel);
+        let before = next.transmittance.mul_add(*channel, next_channel);
+        *channel = rises.select(behind, before);
+    }
+    light.transmittance *= next.transmittance;
+}
+
+/// The lowest and the highest rank of the lanes that cross anything.
+#[inline(always)]
+fn bounds<S: Simd>(crosses: mask32x8<S>, low: f32x8<S>, high: f32x8<S>) -> (usize, usize) {
+    let (mut lows, mut highs) = ([0.0; LANES], [0.0; LANES]);
+    low.store_slice(&mut lows);
+    high.store_slice(&mut highs);
+    let crosses = crosses.to_bitmask();
+    let (mut first, mut last) = (usize::MAX, 0);
+    for lane in 0..LANES {
+        if crosses >> lane & 1 == 1 {
+            first = first.min(lows[lane] as usize);
+            last = last.max(highs[lane] as usize);
+        }
+    }
+    (first, last)
+}
