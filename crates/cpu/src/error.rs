@@ -1,5 +1,8 @@
 //! Why a picture was not drawn.
 
+use tetrascope_integrate::{Integration, SurfaceShading};
+use tetrascope_scene::{IsosurfaceMethod, Mixing, Plan};
+
 /// Why a picture was not drawn.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
@@ -27,12 +30,26 @@ pub enum RenderError {
         "the reference clips rays and has no fan of triangles, on which \"vertex\" is defined; use \"exact\", or the back end \"cpu\""
     )]
     IntegrationNeedsFan,
-    /// The back end has not got the integration yet.
-    #[error("this back end has not got the integration \"{integration}\" yet; use \"exact\"")]
-    NotBuilt {
+    /// The integration does not go with the optical model, or its table has no possible size.
+    #[error(transparent)]
+    Method(#[from] tetrascope_integrate::MethodError),
+    /// Isosurfaces have no possible map.
+    #[error(transparent)]
+    Isosurfaces(#[from] tetrascope_integrate::IsosurfaceError),
+    /// A cell can be cut at isosurfaces along a ray, not as a fan of triangles.
+    #[error(
+        "\"vertex\" integrates a fan of triangles, which cannot be cut at isosurfaces; use another integration, or isosurfaces by \"map-smooth\""
+    )]
+    FanWithIsosurfaces,
+    /// An integral stops at isosurfaces in a table; this integration has none.
+    #[error("integration \"{integration}\" has no table in which it could stop; use \"table-2d\" or \"table-3d\", or isosurfaces by \"exact\" or \"map-smooth\"")]
+    NoTableToStop {
         /// The integration.
-        integration: tetrascope_integrate::Integration,
+        integration: Integration,
     },
+    /// Where a shaded isosurface lets light through, the volume in front of it and behind it do not fit one table.
+    #[error("isosurfaces that are shaded and transparent cannot be stopped at in a table; use isosurfaces by \"exact\" or \"map-smooth\"")]
+    StoppedByTransparent,
     /// The operating system gave no threads.
     #[error("{threads} threads could not be started: {problem}; ask for fewer")]
     Threads {
@@ -41,6 +58,24 @@ pub enum RenderError {
         /// What went wrong.
         problem: String,
     },
+}
+
+/// Checks that a plan's methods go together; a plan of a scene always passes.
+pub(crate) fn check_methods(plan: &Plan) -> Result<(), RenderError> {
+    let integration = plan.integration;
+    integration.check(plan.model)?;
+    let Some(isosurfaces) = &plan.isosurfaces else { return Ok(()) };
+    let is_shaded = isosurfaces.surfaces.shading() != SurfaceShading::None;
+    match isosurfaces.method {
+        IsosurfaceMethod::Exact if integration.needs_fan() => Err(RenderError::FanWithIsosurfaces),
+        IsosurfaceMethod::Map { mixing: Mixing::Stopped, .. } if !integration.needs_table() => {
+            Err(RenderError::NoTableToStop { integration })
+        }
+        IsosurfaceMethod::Map { mixing: Mixing::Stopped, .. } if is_shaded && !isosurfaces.surfaces.are_opaque() => {
+            Err(RenderError::StoppedByTransparent)
+        }
+        _ => Ok(()),
+    }
 }
 
 /// Checks once what both renderers rely on.

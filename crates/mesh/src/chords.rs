@@ -1,6 +1,8 @@
 //! How long the segments of rays are inside the cells of a mesh.
 
-use crate::{CellId, TetMesh};
+use glam::DVec3;
+
+use crate::{TetMesh, VertexId};
 
 /// Lengths of the segments that rays have inside single cells; world length.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -24,21 +26,27 @@ pub struct ChordLengths {
 /// Scale and place of the mesh do not matter. The sums run in the order of the cells.
 pub fn chord_lengths(mesh: &TetMesh) -> Option<ChordLengths> {
     // In local coordinates, where the mesh has a size of about one, so that no power of its scale over- or underflows.
+    let local = segment_lengths(mesh.positions(), mesh.tetrahedra())?;
+    let scale = mesh.frame().scale;
+    let lengths = ChordLengths { mean: local.mean * scale, longest: local.longest * scale };
+    (lengths.mean > 0.0 && lengths.longest.is_finite()).then_some(lengths)
+}
+
+/// [`chord_lengths`] of tetrahedra that are no [`TetMesh`]: their corners may go round either way, and lengths are in the unit
+/// of the positions, which are best about one.
+pub fn segment_lengths(positions: &[DVec3], tetrahedra: &[[VertexId; 4]]) -> Option<ChordLengths> {
     let (mut volume6, mut surface2, mut longest_squared) = (0.0, 0.0, 0.0_f64);
-    for cell in 0..mesh.tetrahedra().len() {
-        let [a, b, c, d] = mesh.corners(CellId(cell as u32));
+    for corners in tetrahedra {
+        let [a, b, c, d] = corners.map(|v| positions[v.index()]);
         let (ab, ac, ad, bc, bd, cd) = (b - a, c - a, d - a, c - b, d - b, d - c);
-        // Positive by the mesh's promise; rounding of a sliver may say otherwise.
-        volume6 += ab.dot(ac.cross(ad)).max(0.0);
+        volume6 += ab.dot(ac.cross(ad)).abs();
         surface2 +=
             [ab.cross(ac), ab.cross(ad), ac.cross(ad), bc.cross(bd)].map(|normal| normal.length()).iter().sum::<f64>();
         longest_squared =
             [ab, ac, ad, bc, bd, cd].iter().fold(longest_squared, |most, edge| most.max(edge.length_squared()));
     }
-    let scale = mesh.frame().scale;
     // 4 (volume6 / 6) / (surface2 / 2)
-    let lengths =
-        ChordLengths { mean: volume6 / surface2 * (4.0 / 3.0) * scale, longest: longest_squared.sqrt() * scale };
+    let lengths = ChordLengths { mean: volume6 / surface2 * (4.0 / 3.0), longest: longest_squared.sqrt() };
     (lengths.mean > 0.0 && lengths.longest.is_finite()).then_some(lengths)
 }
 

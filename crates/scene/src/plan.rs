@@ -214,6 +214,8 @@ impl FromStr for Backend {
 pub enum Stage {
     /// What depends on mesh and field but not on the camera.
     Prepare,
+    /// Pre-integration into a table.
+    Tabulate,
     /// Points into the camera's space.
     Transform,
     /// Visibility order.
@@ -230,6 +232,7 @@ impl fmt::Display for Stage {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(match self {
             Self::Prepare => "prepare",
+            Self::Tabulate => "tabulate",
             Self::Transform => "transform",
             Self::Order => "order",
             Self::SetUp => "set up",

@@ -1,10 +1,14 @@
 //! What a cell has besides its volume: isosurfaces that may cut it, and light.
 
+use std::sync::Arc;
+
 use glam::DVec3;
-use tetrascope_integrate::lanes::PhongLanes;
-use tetrascope_integrate::{Isosurface, Isosurfaces, SurfaceShading};
+use tetrascope_integrate::{Isosurface, Isosurfaces, Phong, SurfaceRole, SurfaceShading};
 use tetrascope_scene::{Gradients, Plan};
 
+use super::cell::Cell;
+use super::gradient::CellGradient;
+use super::lookup;
 use super::maps::Maps;
 use super::record::CellRecord;
 use crate::geometry::PixelSpace;
@@ -33,7 +37,7 @@ pub(crate) struct Effects {
     /// By ascending value, in the renderer's unit; those that are drawn along rays.
     pub(crate) surfaces: Isosurfaces,
     /// How they are drawn, where by maps.
-    pub(crate) maps: Option<Maps>,
+    pub(crate) maps: Option<Arc<Maps>>,
     pub(crate) light: Option<Light>,
     pub(crate) gradients: Gradients,
 }
@@ -41,7 +45,7 @@ pub(crate) struct Effects {
 /// The light of a frame, in the camera's axes: right, down, forward.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Light {
-    pub(crate) phong: PhongLanes,
+    pub(crate) phong: Phong,
     /// From the surface towards the light, of length 1; `None` is a light at the eye.
     pub(crate) direction: Option<[f32; 3]>,
     /// Whether the volume is lit.
@@ -63,7 +67,7 @@ impl Light {
     pub(crate) fn new(plan: &Plan, space: &PixelSpace) -> Option<Self> {
         let lighting = plan.lighting.filter(|_| plan.gradients() != Gradients::None)?;
         let direction = lighting.direction.map(|d| space.direction_in_view(d).to_array().map(|x| x as f32));
-        Some(Self { phong: PhongLanes::new(&lighting.phong), direction, volume: lighting.volume })
+        Some(Self { phong: lighting.phong, direction, volume: lighting.volume })
     }
 }
 
@@ -71,12 +75,21 @@ impl Effects {
     /// Those of a plan; `None` if it has none that are drawn along rays.
     ///
     /// - `surfaces`: those to be seen, in the renderer's unit
-    pub(crate) fn new(plan: &Plan, surfaces: &Isosurfaces, space: &PixelSpace) -> Option<Self> {
+    /// - `maps`: where they are drawn by maps
+    pub(crate) fn new(
+        plan: &Plan,
+        surfaces: &Isosurfaces,
+        maps: Option<Arc<Maps>>,
+        space: &PixelSpace,
+    ) -> Option<Self> {
         let light = Light::new(plan, space);
+        // Those that are part of a table's light are not drawn along rays.
+        let is_in_table = lookup::role(plan) == Some(SurfaceRole::Included);
+        let surfaces = if is_in_table { Isosurfaces::default() } else { surfaces.clone() };
         if surfaces.is_empty() && !light.is_some_and(|light| light.volume) {
             return None;
         }
-        Some(Self { surfaces: surfaces.clone(), maps: None, light, gradients: plan.gradients() })
+        Some(Self { surfaces, maps, light, gradients: plan.gradients() })
     }
 
     /// Which cells have effects: those that an isosurface may cut, and all where the volume is lit.
@@ -116,11 +129,10 @@ impl Effects {
     /// The gradient of a cell with effects, where anything is lit.
     pub(crate) fn gradient(
         &self,
-        cell: &super::cell::Cell,
+        cell: &Cell,
         at_points: impl FnOnce() -> [DVec3; 4],
         space: &PixelSpace,
-    ) -> Option<super::gradient::CellGradient> {
-        use super::gradient::CellGradient;
+    ) -> Option<CellGradient> {
         match self.gradients {
             Gradients::None => None,
             Gradients::Cells => Some(CellGradient::constant(cell, space)),

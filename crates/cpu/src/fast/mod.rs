@@ -16,6 +16,7 @@ mod cover;
 mod effects;
 mod fan;
 mod gradient;
+mod lookup;
 mod maps;
 mod methods;
 mod model;
@@ -34,18 +35,20 @@ use glam::DVec3;
 use rayon::prelude::*;
 
 use tetrascope_integrate::{Integration, Isosurfaces};
-use tetrascope_mesh::{CellId, Frame, TetMesh, VertexId, point_gradients};
+use tetrascope_mesh::{CellId, ChordLengths, Frame, TetMesh, VertexId, point_gradients, segment_lengths};
 use tetrascope_order::Cells;
 use tetrascope_scene::{Gradients, Plan, Progress, Stage};
 use tetrascope_view::LinearImage;
 
-use crate::error::{check_scalars, on_threads};
+use crate::error::{check_methods, check_scalars, on_threads};
 use crate::geometry::{PixelSpace, Points, ascending};
 use crate::grid::{Bins, TileGrid};
 use crate::rendered::Stopwatch;
 use crate::{Counts, RenderError, Rendered};
 use cell::{NOWHERE, Outline};
 use effects::Effects;
+use lookup::Lookup;
+use maps::Maps;
 use optics::Optics;
 use record::{CellRecord, Records};
 use setup::SetUp;
@@ -56,8 +59,8 @@ const TILE_SIDE: u32 = 32;
 /// Cells that one task sets up: enough to hide its start, few enough to spread over the cores.
 const CHUNK: usize = 4096;
 
-/// Transfer functions that are remembered, so that going back and forth between two costs nothing.
-const KEPT_OPTICS: usize = 2;
+/// Transfer functions, tables and maps that are remembered, so that going back and forth between two costs nothing.
+const KEPT: usize = 2;
 
 /// Draws one field on one mesh, again and again.
 ///
@@ -77,8 +80,15 @@ pub struct CpuRenderer {
     is_positive: Vec<bool>,
     /// The instructions that the processor has.
     level: Level,
+    /// Lowest and highest scalar, in that unit.
+    scalar_range: [f64; 2],
     /// Of the last transfer functions, the latest first.
     optics: Mutex<Vec<Arc<Optics>>>,
+    /// Likewise the tables of integrations that have one, and the maps of isosurfaces.
+    lookups: Mutex<Vec<Arc<Lookup>>>,
+    maps: Mutex<Vec<Arc<Maps>>>,
+    /// Lengths of segments, only if a table asked for them; `None` if no cell has a volume.
+    lengths: OnceLock<Option<ChordLengths>>,
     /// One a point, along the mesh's axes; only if a plan asked for them.
     gradients: OnceLock<Vec<DVec3>>,
     /// Memory of the last frame: asking the system for it anew costs a fifth of a frame.
@@ -111,16 +121,21 @@ impl CpuRenderer {
                 (vertices.map(VertexId), is_positive)
             })
             .unzip();
-        let scalar_factor = scalar_factor(mesh.tetrahedra(), scalars);
+        let range = scalar_range(mesh.tetrahedra(), scalars);
+        let scalar_factor = scalar_factor(range);
         Ok(Self {
             frame: mesh.frame(),
             positions: mesh.positions().to_vec(),
             scalars: scalars.iter().map(|s| s * scalar_factor).collect(),
             scalar_factor,
+            scalar_range: range.map(|scalar| scalar * scalar_factor),
             tetrahedra,
             is_positive,
             level: Level::new(),
             optics: Mutex::new(Vec::new()),
+            lookups: Mutex::new(Vec::new()),
+            maps: Mutex::new(Vec::new()),
+            lengths: OnceLock::new(),
             gradients: OnceLock::new(),
             scratch: Mutex::new(None),
         })
@@ -131,21 +146,22 @@ impl CpuRenderer {
     /// The same plan gives the same bits, whatever the number of threads.
     ///
     /// # Errors
-    /// [`RenderError::Threads`] if the plan asks for threads that cannot be started.
+    /// [`RenderError::Threads`] if the plan asks for threads that cannot be started, [`RenderError::Method`] and
+    /// [`RenderError::Isosurfaces`] if its methods do not go together or its tables have no possible size.
     pub fn render(&self, plan: &Plan, progress: &dyn Progress) -> Result<Rendered, RenderError> {
-        if !matches!(plan.integration, Integration::Vertex | Integration::Average | Integration::Exact) {
-            return Err(RenderError::NotBuilt { integration: plan.integration });
-        }
-        on_threads(plan.threads, || self.render_here(plan, progress))
+        check_methods(plan)?;
+        on_threads(plan.threads, || self.render_here(plan, progress))?
     }
 
-    fn render_here(&self, plan: &Plan, progress: &dyn Progress) -> Rendered {
+    fn render_here(&self, plan: &Plan, progress: &dyn Progress) -> Result<Rendered, RenderError> {
         let mut watch = Stopwatch::start();
         let view = plan.view.in_frame(self.frame.origin, self.frame.scale);
         let space = PixelSpace::new(&view, self.frame.scale);
         let surfaces = self.surfaces(plan);
         let optics = self.optics(plan, &surfaces);
-        let effects = Effects::new(plan, &surfaces, &space);
+        let lookup = self.lookup(plan, &surfaces, &optics, progress)?;
+        let maps = self.maps(plan, &surfaces)?;
+        let effects = Effects::new(plan, &surfaces, maps, &space);
         let gradients = match &effects {
             Some(effects) if effects.gradients == Gradients::Points => self.gradients(),
             _ => &[],
@@ -193,7 +209,17 @@ impl CpuRenderer {
         let (fragments, crossings) = (AtomicU64::new(0), AtomicU64::new(0));
         let done = AtomicU64::new(0);
         let job =
-            tile::Job { records, bins: &bins, grid, space: &space, optics: &optics, plan, effects, level: self.level };
+            tile::Job {
+                records,
+                bins: &bins,
+                grid,
+                space: &space,
+                optics: &optics,
+                plan,
+                lookup: lookup.as_deref(),
+                effects,
+                level: self.level,
+            };
         tiles.resize_with(grid.len(), tile::Pixels::default);
         tiles.par_iter_mut().enumerate().with_max_len(1).for_each(|(index, pixels)| {
             let drawn = job.draw(index, pixels);
@@ -225,7 +251,7 @@ impl CpuRenderer {
             crossings: crossings.into_inner(),
         };
         *self.scratch.lock().unwrap_or_else(PoisonError::into_inner) = Some(scratch);
-        Rendered { image, timings: watch.finish(), counts }
+        Ok(Rendered { image, timings: watch.finish(), counts })
     }
 
     /// The isosurfaces that are to be seen, in the renderer's unit.
@@ -242,28 +268,82 @@ impl CpuRenderer {
 
     /// What the plan's transfer function makes of the cells; made anew only when it changed.
     fn optics(&self, plan: &Plan, surfaces: &Isosurfaces) -> Arc<Optics> {
-        let mut kept = self.optics.lock().unwrap_or_else(PoisonError::into_inner);
-        if let Some(place) = kept.iter().position(|optics| optics.is_for(&plan.transfer, plan.model, surfaces)) {
-            // The last one used stays longest.
-            kept[..=place].rotate_right(1);
-        } else {
+        let is_right = |optics: &Optics| optics.is_for(&plan.transfer, plan.model, surfaces);
+        recall(&self.optics, is_right).unwrap_or_else(|| {
             let (factor, model) = (self.scalar_factor, plan.model);
             let optics = Optics::new(&plan.transfer, factor, model, surfaces, &self.tetrahedra, &self.scalars);
-            kept.insert(0, Arc::new(optics));
-            kept.truncate(KEPT_OPTICS);
+            remember(&self.optics, optics)
+        })
+    }
+
+    /// The table of the plan's integration, if it has one; made anew only when what it depends on changed.
+    fn lookup(
+        &self,
+        plan: &Plan,
+        surfaces: &Isosurfaces,
+        optics: &Optics,
+        progress: &dyn Progress,
+    ) -> Result<Option<Arc<Lookup>>, RenderError> {
+        let Some(key) = lookup::Key::of(plan, surfaces) else { return Ok(None) };
+        if let Some(lookup) = recall(&self.lookups, |lookup| lookup.is_for(&key)) {
+            return Ok(Some(lookup));
         }
-        Arc::clone(&kept[0])
+        let Some(lengths) = self.lengths() else { return Ok(None) };
+        let report = |done, total| progress.report(Stage::Tabulate, done, total);
+        let lookup = Lookup::new(key, optics.transfer(), self.scalar_range, lengths, &report)?;
+        Ok(Some(remember(&self.lookups, lookup)))
+    }
+
+    /// The maps of the plan's isosurfaces, if they are drawn by maps; made anew only when the surfaces changed.
+    fn maps(&self, plan: &Plan, surfaces: &Isosurfaces) -> Result<Option<Arc<Maps>>, RenderError> {
+        let Some(key) = maps::Key::of(plan, surfaces) else { return Ok(None) };
+        if let Some(maps) = recall(&self.maps, |maps| maps.is_for(&key)) {
+            return Ok(Some(maps));
+        }
+        Ok(Some(remember(&self.maps, Maps::new(key, self.scalar_range)?)))
+    }
+
+    /// Lengths of segments, world length; computed when first asked for. `None` if no cell has a volume.
+    fn lengths(&self) -> Option<ChordLengths> {
+        *self.lengths.get_or_init(|| {
+            let local = segment_lengths(&self.positions, &self.tetrahedra)?;
+            let scale = self.frame.scale;
+            let lengths = ChordLengths { mean: local.mean * scale, longest: local.longest * scale };
+            (lengths.mean > 0.0 && lengths.longest.is_finite()).then_some(lengths)
+        })
     }
 }
 
-/// The power of two that brings the range of a field to between 1 and 2, so that what f32 sees of it neither over- nor
-/// underflows, whatever its unit. Being a power of two it changes no digit.
-fn scalar_factor(tetrahedra: &[[VertexId; 4]], scalars: &[f64]) -> f64 {
+/// The one of those kept that fits; it becomes the first, since the last one used stays longest.
+fn recall<T>(kept: &Mutex<Vec<Arc<T>>>, fits: impl Fn(&T) -> bool) -> Option<Arc<T>> {
+    let mut kept = kept.lock().unwrap_or_else(PoisonError::into_inner);
+    let place = kept.iter().position(|one| fits(one))?;
+    kept[..=place].rotate_right(1);
+    Some(Arc::clone(&kept[0]))
+}
+
+/// Keeps something new in the place of what was not used for longest.
+fn remember<T>(kept: &Mutex<Vec<Arc<T>>>, new: T) -> Arc<T> {
+    let new = Arc::new(new);
+    let mut kept = kept.lock().unwrap_or_else(PoisonError::into_inner);
+    kept.insert(0, Arc::clone(&new));
+    kept.truncate(KEPT);
+    new
+}
+
+/// Lowest and highest scalar that a cell uses; both 0 without cells.
+fn scalar_range(tetrahedra: &[[VertexId; 4]], scalars: &[f64]) -> [f64; 2] {
     let (low, high) = tetrahedra
         .par_iter()
         .map(|cell| cell.map(|v| scalars[v.index()]))
         .map(|s| s.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), &s| (low.min(s), high.max(s))))
         .reduce(|| (f64::INFINITY, f64::NEG_INFINITY), |a, b| (a.0.min(b.0), a.1.max(b.1)));
+    if low <= high { [low, high] } else { [0.0; 2] }
+}
+
+/// The power of two that brings the range of a field to between 1 and 2, so that what f32 sees of it neither over- nor
+/// underflows, whatever its unit. Being a power of two it changes no digit.
+fn scalar_factor([low, high]: [f64; 2]) -> f64 {
     // Halves, whose difference is finite.
     let half = 0.5 * high - 0.5 * low;
     if half > 0.0 {

@@ -9,10 +9,12 @@
 //! thicken, and no pixel is drawn twice.
 
 use fearless_simd::{Simd, f32x8, mask32x8, prelude::*};
+use tetrascope_integrate::lanes::phong;
 
 use super::cell::CellPieces;
 use super::effects::{Light as Lamp, LocalSurface};
 use super::gradient::CellGradient;
+use super::maps::Maps;
 use super::methods::{CellOptics, Method};
 use super::model::Model;
 use super::record::CellRecord;
@@ -66,6 +68,8 @@ pub(crate) struct CellWithEffects<'a> {
     /// Their place among all surfaces.
     pub(crate) range: CellPieces,
     pub(crate) slack: f32,
+    /// How they are drawn where not by analysis.
+    pub(crate) maps: Option<&'a Maps>,
     /// Both where anything is lit.
     pub(crate) gradient: Option<&'a CellGradient>,
     pub(crate) lamp: Option<&'a Lamp>,
@@ -109,18 +113,26 @@ impl CellWithEffects<'_> {
         let place = if rays.is_perspective { [u * depth, w * depth, depth] } else { [u, w, depth] };
         let gradient = gradient.at(simd, place);
         let to_light = lamp.direction.map_or(rays.to_eye, |direction| direction.map(|x| f32x8::splat(simd, x)));
-        Some(lamp.phong.intensities(simd, gradient, rays.to_eye, to_light))
+        Some(phong(simd, &lamp.phong, gradient, rays.to_eye, to_light))
     }
 
-    /// The volume of a segment, lit if it is to be.
+    /// What the light makes of the volume, by the gradient in the middle of the segment; `None` if it is not lit.
     #[inline(always)]
-    pub(crate) fn lit<S: Simd>(&self, body: Option<[f32x8<S>; 2]>, mut light: Light<S>) -> Light<S> {
-        if let Some([body, highlight]) = body {
-            for channel in &mut light.rgb {
-                *channel *= body + highlight;
-            }
-        }
-        light
+    fn intensities_of_volume<S: Simd>(&self, simd: S, rays: &Rays<S>, sample: &Sample<S>) -> Option<[f32x8<S>; 2]> {
+        let is_lit = self.lamp.is_some_and(|lamp| lamp.volume);
+        if is_lit { self.intensities(simd, rays, (sample.depth[0] + sample.depth[1]) * 0.5) } else { None }
+    }
+
+    /// The volume of a whole segment, lit if it is to be.
+    #[inline(always)]
+    pub(crate) fn volume<S: Simd, I: Method, M: Model>(
+        &self,
+        simd: S,
+        cell: CellOptics<'_>,
+        sample: &Sample<S>,
+        rays: &Rays<S>,
+    ) -> Light<S> {
+        lit(I::shade::<S, M>(simd, cell, sample), self.intensities_of_volume(simd, rays, sample))
     }
 
     /// Ranks of both ends among the cell's surfaces.
@@ -148,12 +160,23 @@ impl CellWithEffects<'_> {
         sample: &Sample<S>,
         joint: &mut Joint,
     ) -> (Light<S>, u64) {
+        match self.maps {
+            Some(maps) if self.range.count > 0 => maps.shade::<S, I, M>(simd, cell, self, sample, joint),
+            _ => self.cut::<S, I, M>(simd, cell, sample, joint),
+        }
+    }
+
+    /// The segments cut at the surfaces.
+    #[inline(always)]
+    fn cut<S: Simd, I: Method, M: Model>(
+        &self,
+        simd: S,
+        cell: CellOptics<'_>,
+        sample: &Sample<S>,
+        joint: &mut Joint,
+    ) -> (Light<S>, u64) {
         let rays = self.rays(simd, sample);
-        let of_volume = if self.lamp.is_some_and(|lamp| lamp.volume) {
-            self.intensities(simd, &rays, (sample.depth[0] + sample.depth[1]) * 0.5)
-        } else {
-            None
-        };
+        let of_volume = self.intensities_of_volume(simd, &rays, sample);
         let (zero, one) = (f32x8::splat(simd, 0.0), f32x8::splat(simd, 1.0));
         let [front_rank, back_rank] = self.ranks(simd, sample, joint);
         let front_rank = sample.covered.select(front_rank, back_rank);
@@ -187,7 +210,7 @@ impl CellWithEffects<'_> {
             let length = sample.length * share;
             if length.simd_gt(zero).any_true() {
                 let part = Sample { front: rises.select(from, to), back: rises.select(to, from), length, ..*sample };
-                let part = self.lit(of_volume, I::shade::<S, M>(simd, cell, &part));
+                let part = lit(I::shade::<S, M>(simd, cell, &part), of_volume);
                 compose(&mut light, part, rises);
             }
             if index < last {
@@ -235,9 +258,20 @@ impl CellWithEffects<'_> {
     }
 }
 
+/// Volume multiplied by what comes back of the light.
+#[inline(always)]
+fn lit<S: Simd>(mut light: Light<S>, intensities: Option<[f32x8<S>; 2]>) -> Light<S> {
+    if let Some([body, highlight]) = intensities {
+        for channel in &mut light.rgb {
+            *channel *= body + highlight;
+        }
+    }
+    light
+}
+
 /// Puts light behind what is there where the scalar rises along the ray, else in front of it.
 #[inline(always)]
-pub(crate) fn compose<S: Simd>(light: &mut Light<S>, next: Light<S>, rises: mask32x8<S>) {
+fn compose<S: Simd>(light: &mut Light<S>, next: Light<S>, rises: mask32x8<S>) {
     for (channel, next_channel) in light.rgb.iter_mut().zip(next.rgb) {
         let behind = light.transmittance.mul_add(next_channel, *channel);
         let before = next.transmittance.mul_add(*channel, next_channel);

@@ -1,13 +1,12 @@
 //! What the fast renderer does and leaves out: counts, memory of transfer functions, early ends, careful cells.
 
 use glam::DVec3;
-use tetrascope_integrate::{Integration, OpticalModel, TransferFunction};
+use tetrascope_integrate::{OpticalModel, TransferFunction};
 use tetrascope_mesh::TetMesh;
-use tetrascope_order::OrderMethod;
-use tetrascope_scene::{Backend, Plan, Silent};
+use tetrascope_scene::{Plan, Silent};
 use tetrascope_view::{Camera, Projection, View};
 
-use super::{CpuRenderer, KEPT_OPTICS};
+use super::{CpuRenderer, KEPT};
 
 /// A row of small tetrahedra along -z, whose scalar is their number.
 fn row(count: u32) -> (TetMesh, Vec<f64>) {
@@ -53,7 +52,7 @@ fn two_transfer_functions_are_remembered_and_no_more() {
     let _second = renderer.optics(&plans[1]);
     assert!(std::sync::Arc::ptr_eq(&first, &renderer.optics(&plans[0])), "made anew though it was remembered");
     let _third = renderer.optics(&plans[2]);
-    assert_eq!(renderer.optics.lock().unwrap().len(), KEPT_OPTICS);
+    assert_eq!(renderer.optics.lock().unwrap().len(), KEPT);
     assert!(std::sync::Arc::ptr_eq(&first, &renderer.optics(&plans[0])), "the least recently used goes first");
 }
 

@@ -8,7 +8,8 @@ use super::careful::careful_sample;
 use super::cell::CellPieces;
 use super::cover::{BlockRange, CoverList};
 use super::effects::{Effects, LocalSurface};
-use super::methods::{Average, CellOptics, Ends, Exact, Method, Partial, Vertex};
+use super::lookup::Lookup;
+use super::methods::{Average, CellOptics, Cumulative, Ends, Exact, Method, Partial, Tabulated, Vertex};
 use super::model::{Absorption, DensityEmitter, Emission, Emitter, Model};
 use super::optics::Optics;
 use super::record::{CellRecord, NO_EFFECTS, Records};
@@ -30,6 +31,8 @@ pub(crate) struct Job<'a> {
     pub(crate) space: &'a PixelSpace,
     pub(crate) optics: &'a Optics,
     pub(crate) plan: &'a Plan,
+    /// The table, where the integration has one.
+    pub(crate) lookup: Option<&'a Lookup>,
     /// Isosurfaces and light, if there are any.
     pub(crate) effects: Option<&'a Effects>,
     pub(crate) level: Level,
@@ -137,8 +140,11 @@ impl Job<'_> {
             (I::Partial, O::DensityEmitter) => self.draw_as::<Partial, DensityEmitter>(index, pixels),
             (I::Average, _) => self.draw_with::<Average>(index, pixels),
             (I::Opacity2d | I::Partial, _) => self.draw_with::<Ends>(index, pixels),
-            (I::Cumulative | I::Exact, O::Absorption | O::Emission) => self.draw_with::<Exact>(index, pixels),
-            (I::Table2d | I::Table3d | I::Cumulative | I::Exact, _) => self.draw_with::<Exact>(index, pixels),
+            (I::Table2d, _) => self.draw_as::<Tabulated<false>, DensityEmitter>(index, pixels),
+            (I::Table3d, _) => self.draw_as::<Tabulated<true>, DensityEmitter>(index, pixels),
+            (I::Cumulative, O::DensityEmitter) => self.draw_as::<Cumulative, DensityEmitter>(index, pixels),
+            (I::Cumulative, O::Emitter) => self.draw_as::<Cumulative, Emitter>(index, pixels),
+            (I::Cumulative | I::Exact, _) => self.draw_with::<Exact>(index, pixels),
         }
     }
 
@@ -171,7 +177,8 @@ impl Job<'_> {
                         self.optics.localize(record, &mut pieces);
                     }
                     let fan = records.fans.get(item as usize).and_then(Option::as_ref);
-                    let cell = CellOptics { pieces: &pieces, fan };
+                    let table = self.lookup.map(|lookup| lookup.localize(record));
+                    let cell = CellOptics { pieces: &pieces, fan, table };
                     let with_effects = self.effects_of(records, record, &mut surfaces);
                     self.draw_cell::<S, I, M>(simd, records, record, cell, with_effects.as_ref(), &mut canvas);
                 }
@@ -200,6 +207,7 @@ impl Job<'_> {
             surfaces,
             range: CellPieces { first: of_cell.first, count: of_cell.count },
             slack: of_cell.slack,
+            maps: effects.maps.as_deref(),
             gradient: records.gradients.get(number),
             lamp: effects.light.as_ref(),
             space: self.space,

@@ -3,6 +3,7 @@
 use glam::DVec3;
 
 use super::*;
+use crate::CellId;
 use crate::{Dataset, decompose, rings_sample};
 
 fn mesh_of(dataset: &Dataset) -> TetMesh {

@@ -6,16 +6,19 @@ mod average;
 mod ends;
 mod exact;
 mod partial;
+mod tabulated;
 mod vertex;
 
 pub(crate) use average::Average;
 pub(crate) use ends::Ends;
 pub(crate) use exact::Exact;
 pub(crate) use partial::Partial;
+pub(crate) use tabulated::Tabulated;
 pub(crate) use vertex::Vertex;
 
 use super::cell::LocalPiece;
 use super::fan::Fan;
+use super::lookup::CellTable;
 use super::model::{Model, at};
 use super::sample::{Light, Sample};
 
@@ -26,6 +29,8 @@ pub(crate) struct CellOptics<'a> {
     pub(crate) pieces: &'a [LocalPiece],
     /// Its fan of triangles, where the method asks for fans; `None` if its outline has no area.
     pub(crate) fan: Option<&'a Fan>,
+    /// The table, where the method has one.
+    pub(crate) table: Option<CellTable<'a>>,
 }
 
 /// An integration method.
