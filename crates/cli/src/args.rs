@@ -3,7 +3,9 @@
 use std::path::PathBuf;
 
 use clap::{Args, Parser, Subcommand};
-use tetrascope::{Backend, Choice, Integration, OpticalModel, OrderMethod};
+use tetrascope::{
+    Backend, Choice, Integration, IsosurfaceSection, LengthAxisName, OpticalModel, OrderMethod, Shading, TableSettings,
+};
 
 /// Draws unstructured meshes as volumes.
 #[derive(Debug, Parser)]
@@ -44,11 +46,13 @@ Examples:
   tetrascope render case.vtu --field Velocity:mag --eye 3,-4,2 --up 0,0,1 --size 1280x720
   tetrascope render grid.xyz solution.q --field Density -o density.png -o density.exr
   tetrascope render case.vtu --color \"0:0,0,1; 0.5:1,1,1; 1:1,0,0\" --extinction \"0:0; 0.4:0; 0.5:9; 0.6:0\"
+  tetrascope render case.vtu --isosurface 0.5:1,0.8,0.2 --isosurface 0.8:0.2,0.5,1,0.4 --shading smooth
   tetrascope render case.vtu --write-scene case.toml     keep all numbers, to be edited
   tetrascope render case.toml                            the same picture again
 
 Control points are in the field's own units and in ascending order; between them color and extinction are linear. Two
 points at one scalar make a step. Extinction is per world unit of length: 1 takes away 63 % of the light behind within one unit.
+Isosurfaces stand in the volume; --extinction \"0:0\" leaves them alone in the picture.
 
 Exit codes: 0 good, 1 wrong input, 2 wrong usage. Pictures are written whole or not at all.";
 
@@ -97,10 +101,30 @@ pub(crate) struct RenderArgs {
     /// Extinction control points "scalar:extinction; ..." [default: 0 to 8 over the mesh's diagonal]
     #[arg(long, value_name = "POINTS", value_parser = extinction_points, allow_hyphen_values = true, help_heading = "Picture")]
     pub(crate) extinction: Option<Points<2>>,
+    /// Surface of one value in the volume, besides those of the scene: linear RGB and opacity 0 to 1; may be repeated
+    /// [default: 0.9,0.9,0.9,1]
+    #[arg(
+        long,
+        value_name = "VALUE[:R,G,B[,OPACITY]]",
+        value_parser = isosurface,
+        allow_hyphen_values = true,
+        help_heading = "Picture"
+    )]
+    pub(crate) isosurface: Vec<IsosurfaceSection>,
+    /// How light falls on those: none, flat, smooth [default: none]
+    #[arg(long, value_name = "NAME", value_parser = shading, requires = "isosurface", help_heading = "Picture")]
+    pub(crate) shading: Option<Shading>,
 
-    /// auto, or how a ray's way through a cell becomes a color: exact, average, vertex
+    /// auto, or how a ray's way through a cell becomes a color: exact, table-3d, table-2d, partial, cumulative,
+    /// opacity-2d, average, vertex
     #[arg(long, value_name = "NAME", help_heading = "Method")]
     pub(crate) integration: Option<Choice<Integration>>,
+    /// Samples along each axis of the table of table-3d or table-2d [default: 64 or 256]
+    #[arg(long, value_name = "N", value_parser = table_size(), help_heading = "Method")]
+    pub(crate) table_size: Option<u32>,
+    /// Spacing of the lengths in the table of table-3d: linear, logarithmic [default: linear]
+    #[arg(long, value_name = "NAME", value_parser = length_axis, help_heading = "Method")]
+    pub(crate) length_axis: Option<LengthAxisName>,
     /// auto, or in which order cells are blended: centroid, bucket, none
     #[arg(long, value_name = "NAME", help_heading = "Method")]
     pub(crate) order: Option<Choice<OrderMethod>>,
@@ -189,6 +213,46 @@ fn color_points(text: &str) -> Result<Points<4>, String> {
     points::<4, 3>(text)
 }
 
+/// What an isosurface looks like when only its value is given: nearly white, so that every light shows on it.
+const ISOSURFACE_COLOR: [f64; 3] = [0.9; 3];
+
+fn isosurface(text: &str) -> Result<IsosurfaceSection, String> {
+    let Some((value, look)) = text.split_once(':') else {
+        let [value] = numbers(text)?;
+        return Ok(IsosurfaceSection::new(value, ISOSURFACE_COLOR));
+    };
+    let [value] = numbers(value)?;
+    match look.split(',').count() {
+        3 => Ok(IsosurfaceSection::new(value, numbers(look)?)),
+        4 => {
+            let [r, g, b, opacity] = numbers(look)?;
+            Ok(IsosurfaceSection { opacity, ..IsosurfaceSection::new(value, [r, g, b]) })
+        }
+        other => Err(format!("\"{look}\" has {other} numbers; give red, green, blue, and an opacity if it is not 1")),
+    }
+}
+
+fn shading(name: &str) -> Result<Shading, String> {
+    match name {
+        "none" => Ok(Shading::None),
+        "flat" => Ok(Shading::Flat),
+        "smooth" => Ok(Shading::Smooth),
+        _ => Err("there are none, flat and smooth".to_owned()),
+    }
+}
+
+fn length_axis(name: &str) -> Result<LengthAxisName, String> {
+    match name {
+        "linear" => Ok(LengthAxisName::Linear),
+        "logarithmic" => Ok(LengthAxisName::Logarithmic),
+        _ => Err("there are linear and logarithmic".to_owned()),
+    }
+}
+
+fn table_size() -> clap::builder::RangedI64ValueParser<u32> {
+    clap::value_parser!(u32).range(i64::from(TableSettings::LEAST)..=i64::from(TableSettings::MOST))
+}
+
 fn extinction_points(text: &str) -> Result<Points<2>, String> {
     points::<2, 1>(text)
 }
@@ -223,11 +287,25 @@ mod tests {
     }
 
     #[test]
+    fn isosurfaces() {
+        let plain = isosurface("-0.5").unwrap();
+        assert_eq!(plain, IsosurfaceSection::new(-0.5, [0.9, 0.9, 0.9]));
+        assert_eq!((plain.opacity, plain.shading), (1.0, Shading::None));
+        assert_eq!(isosurface("2: 1,0.5,0").unwrap(), IsosurfaceSection::new(2.0, [1.0, 0.5, 0.0]));
+        let glass = isosurface("2:1,0.5,0,0.25").unwrap();
+        assert_eq!((glass.color, glass.opacity, glass.back_color), ([1.0, 0.5, 0.0], 0.25, None));
+        for wrong in ["", "a", "nan", "1:", "1:1", "1:1,2", "1:1,2,3,4,5", "1:1,2,x", "1:1:1", "1,2"] {
+            assert!(isosurface(wrong).is_err(), "{wrong}");
+        }
+    }
+
+    #[test]
     fn negative_numbers_are_values() {
-        let cli =
-            Cli::try_parse_from(["tetrascope", "render", "a.vtu", "--eye", "-1,-2,3", "--extinction", "-1:0;1:2"]);
+        let negative = ["--eye", "-1,-2,3", "--extinction", "-1:0;1:2", "--isosurface", "-1:1,1,1"];
+        let cli = Cli::try_parse_from([&["tetrascope", "render", "a.vtu"], &negative[..]].concat());
         let Some(Command::Render(args)) = cli.unwrap().command else { panic!("not render") };
         assert_eq!(args.eye, Some([-1.0, -2.0, 3.0]));
         assert_eq!(args.extinction, Some(Points(vec![[-1.0, 0.0], [1.0, 2.0]])));
+        assert_eq!(args.isosurface[0].value, -1.0);
     }
 }

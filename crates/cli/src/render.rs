@@ -4,8 +4,8 @@ use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
 use tetrascope::{
-    Completed, Plan, ProjectionName, Rendered, SceneFile, Volume, VolumeField, explain_blank, is_blank, resolve_path,
-    warn_of_non_finite, write_image,
+    Completed, IsosurfaceSection, Plan, ProjectionName, Rendered, SceneFile, Volume, VolumeField, explain_blank,
+    is_blank, resolve_path, warn_of_non_finite, write_image,
 };
 
 use crate::Failure;
@@ -174,8 +174,19 @@ fn override_by_options(scene: &mut SceneFile, args: &RenderArgs) {
     set(&mut scene.optics.model, args.model.as_ref());
     set_some(&mut scene.transfer.color, args.color.as_ref().map(|points| &points.0));
     set_some(&mut scene.transfer.extinction, args.extinction.as_ref().map(|points| &points.0));
+    let shading = args.shading.unwrap_or_default();
+    scene.isosurface.extend(args.isosurface.iter().map(|added| IsosurfaceSection { shading, ..added.clone() }));
     let quality = &mut scene.quality;
+    if args.integration.is_some_and(|asked| asked != quality.integration) {
+        // The scene file's table belongs to the integration that is replaced.
+        (quality.table_size, quality.table_lengths, quality.length_axis) = (None, None, None);
+    }
     set(&mut quality.integration, args.integration.as_ref());
+    if args.table_size.is_some() {
+        // One size for all axes, whatever the scene file has for the lengths.
+        (quality.table_size, quality.table_lengths) = (args.table_size, None);
+    }
+    set_some(&mut quality.length_axis, args.length_axis.as_ref());
     if args.order.is_some() && args.slabs.is_none() {
         // The slabs of the scene file belong to the order that is replaced.
         quality.slabs = None;

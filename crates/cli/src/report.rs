@@ -4,7 +4,9 @@ use std::path::Path;
 use std::time::Duration;
 
 use serde_json::{Map, Value, json};
-use tetrascope::{Backend, Completed, Plan, Projection, Rendered, Volume, VolumeField, short};
+use tetrascope::{
+    Backend, Completed, Gradients, Integration, LengthAxis, Plan, Projection, Rendered, Volume, VolumeField, short,
+};
 
 /// Collects what was done; people read it line by line as it happens, machines at the end.
 #[derive(Debug)]
@@ -100,6 +102,14 @@ impl Report {
             .collect();
         self.put("decisions", json!(decisions));
         self.put("integration", json!(plan.integration.to_string()));
+        self.put("tables", tables_of(plan));
+        self.put("isosurfaces", isosurfaces_of(plan));
+        let gradients = match plan.gradients() {
+            Gradients::None => "none",
+            Gradients::Cells => "cells",
+            Gradients::Points => "points",
+        };
+        self.put("gradients", json!(gradients));
         // The reference takes no order of cells: it sorts along every ray.
         let order = match plan.backend {
             Backend::Reference => "per-pixel".to_owned(),
@@ -175,6 +185,26 @@ impl Report {
             object(&Value::Object(self.object));
         }
     }
+}
+
+/// Sizes of the integration's table; null if it has none.
+fn tables_of(plan: &Plan) -> Value {
+    let Some(tables) = plan.table_settings() else { return Value::Null };
+    if plan.integration != Integration::Table3d {
+        return json!({ "scalars": tables.scalars });
+    }
+    let length_axis = match tables.length_axis {
+        LengthAxis::Linear => "linear",
+        LengthAxis::Logarithmic => "logarithmic",
+    };
+    json!({ "scalars": tables.scalars, "lengths": tables.lengths, "length_axis": length_axis })
+}
+
+/// How many isosurfaces are drawn, where and by which method.
+fn isosurfaces_of(plan: &Plan) -> Value {
+    let Some(isosurfaces) = &plan.isosurfaces else { return json!({ "count": 0, "values": [] }) };
+    let values: Vec<f64> = isosurfaces.surfaces.as_slice().iter().map(|surface| surface.value).collect();
+    json!({ "count": values.len(), "values": values, "method": isosurfaces.method.name() })
 }
 
 fn seconds(time: Duration) -> String {

@@ -147,14 +147,16 @@ fn wrong_input_is_one() {
     let run = Run::new();
     run.write("broken.vtu", &MESH[..MESH.len() / 2]);
     run.write("typo.toml", "[mesh]\npath = \"mesh.vtu\"\n[image]\nwidht = 5\n");
-    run.write("iso.toml", "[mesh]\npath = \"mesh.vtu\"\n[[isosurface]]\nvalue = 1.5\ncolor = [1, 1, 1]\n");
+    run.write("iso.toml", "[mesh]\npath = \"mesh.vtu\"\n[[isosurface]]\nvalue = 1.5\ncolor = [1, 1, 1]\nopacity = 2\n");
+    run.write("file.toml", "[mesh]\npath = \"mesh.vtu\"\n[[surface]]\npath = \"fin.glb\"\n");
     run.write("typo.json", "{\"mesh\": {\"path\": \"mesh.vtu\"},\n\"lihgt\": {}}");
     has(&run.bad(1, &["render", "absent.vtu"]), &["absent.vtu", "check the path"]);
     has(&run.bad(1, &["render", "absent.toml"]), &["absent.toml", "check the path"]);
     has(&run.bad(1, &["render", "broken.vtu"]), &["broken.vtu"]);
     has(&run.bad(1, &["render", "typo.toml"]), &["typo.toml", "line 4", "`widht`", "`width`"]);
     has(&run.bad(1, &["render", "typo.json"]), &["typo.json", "line 2", "`lihgt`", "`light`"]);
-    has(&run.bad(1, &["render", "iso.toml"]), &["iso.toml", "[[isosurface]]", "not supported yet"]);
+    has(&run.bad(1, &["render", "iso.toml"]), &["iso.toml", "isosurface[0].opacity is 2", "0 to 1"]);
+    has(&run.bad(1, &["render", "file.toml"]), &["file.toml", "[[surface]]", "not supported yet"]);
     has(&run.bad(1, &["render", "builtin:teapot"]), &["builtin:rings"]);
     has(&run.bad(1, &["render", "mesh.vtu", "-o", "nowhere/a.png"]), &["no folder nowhere"]);
     has(&run.bad(1, &["render", "mesh.vtu", "--eye", "1,1,1", "--target", "1,1,1"]), &["same point"]);
@@ -168,6 +170,13 @@ fn wrong_usage_is_two() {
     has(&run.bad(2, &["render", "mesh.vtu", "--write-scene", "a.yaml"]), &["a.yaml", ".toml and .json"]);
     has(&run.bad(2, &["render", "mesh.vtu", "--eye", "1,2"]), &["has 2 numbers"]);
     has(&run.bad(2, &["render", "mesh.vtu", "--integration", "exakt"]), &["\"exact\""]);
+    has(&run.bad(2, &["render", "mesh.vtu", "--integration", "exakt"]), &["\"table-3d\"", "\"partial\""]);
+    has(&run.bad(2, &["render", "mesh.vtu", "--isosurface", "1:2,3"]), &["has 2 numbers", "red, green, blue"]);
+    has(&run.bad(2, &["render", "mesh.vtu", "--isosurface", "nan"]), &["not a finite number"]);
+    has(&run.bad(2, &["render", "mesh.vtu", "--shading", "flat"]), &["--isosurface"]);
+    has(&run.bad(2, &["render", "mesh.vtu", "--isosurface", "1", "--shading", "phong"]), &["none, flat and smooth"]);
+    has(&run.bad(2, &["render", "mesh.vtu", "--table-size", "1"]), &["2..=1024"]);
+    has(&run.bad(2, &["render", "mesh.vtu", "--length-axis", "cubic"]), &["linear and logarithmic"]);
     has(&run.bad(2, &["render", "mesh.vtu", "--order", "mpvo"]), &["not in this version"]);
     has(&run.bad(2, &["render", "mesh.vtu", "--backend", "gpu"]), &["cpu and reference"]);
     has(&run.bad(2, &["render", "mesh.vtu", "--fov", "30", "--orthographic", "2"]), &["cannot be used with"]);
@@ -193,6 +202,7 @@ fn a_written_scene_gives_the_same_bytes() {
     for (index, options) in [
         &[][..],
         &["--field", "v", "--orthographic", "2.5", "--model", "emitter"],
+        &["--isosurface", "1.5", "--isosurface", "2.5:1,0.5,0,0.5", "--shading", "smooth"],
         &["--eye", "0.3,-4,2", "--up", "0,0,1", "--color", "0:0,0.5,1; 4:1,1,0", "--order", "bucket", "--slabs", "7"],
         &["--field", "flat", "--integration", "average", "--backend", "reference", "--background", "0.1,0.2,0.3"],
     ]
@@ -213,6 +223,74 @@ fn a_written_scene_gives_the_same_bytes() {
             }
         }
     }
+}
+
+#[test]
+fn isosurfaces_are_added_to_those_of_the_scene() {
+    let run = Run::new();
+    run.write(
+        "a.toml",
+        "[mesh]\npath = \"mesh.vtu\"\n[[isosurface]]\nvalue = 3.5\ncolor = [1, 0, 0]\nback_color = [0, 0, 1]\n",
+    );
+    let options = ["--isosurface", "1.5:0,1,0,0.25", "--isosurface", "2", "--shading", "flat", "--size", "8"];
+    let out = run.good(&[&["render", "a.toml", "--write-scene", "b.toml"], &options[..]].concat());
+    has(&out, &["isosurfaces 3 by exact", "light       headlight: on isosurfaces", "gradients   one a cell"]);
+    let written = std::fs::read_to_string(run.path("b.toml")).unwrap();
+    let sections: Vec<&str> = written.split("[[isosurface]]").skip(1).collect();
+    let [first, second, third] = sections[..] else { panic!("not three in:\n{written}") };
+    has(first, &["value = 3.5", "back_color = [0.0, 0.0, 1.0]", "opacity = 1.0", "shading = \"none\""]);
+    has(second, &["value = 1.5", "back_color = [0.0, 1.0, 0.0]", "opacity = 0.25", "shading = \"flat\""]);
+    has(third, &["value = 2.0", "color = [0.9, 0.9, 0.9]", "opacity = 1.0", "shading = \"flat\""]);
+    has(&written, &["[light]", "direction = \"headlight\"", "isosurfaces = \"exact\""]);
+}
+
+#[test]
+fn isosurfaces_are_in_the_report() {
+    let run = Run::new();
+    let json = |options: &[&str]| -> serde_json::Value {
+        let args = [&["render", "mesh.vtu", "--size", "8", "--json"], options].concat();
+        serde_json::from_str(&run.good(&args)).unwrap()
+    };
+    let report = json(&["--isosurface", "2.5", "--isosurface=-1", "--shading", "smooth"]);
+    assert_eq!(report["isosurfaces"], serde_json::json!({ "count": 2, "values": [-1.0, 2.5], "method": "exact" }));
+    assert_eq!((&report["gradients"], &report["tables"]), (&"points".into(), &serde_json::Value::Null));
+    let warnings = report["warnings"].as_array().unwrap();
+    assert_eq!(warnings.len(), 1);
+    has(warnings[0].as_str().unwrap(), &["isosurface[1].value is -1", "the field goes from 0 to 4", "not seen"]);
+    let plain = json(&[]);
+    assert_eq!(plain["isosurfaces"]["count"], 0);
+    assert_eq!(plain["gradients"], "none");
+}
+
+#[test]
+fn methods_that_do_not_go_together_are_refused() {
+    let run = Run::new();
+    let text = run.bad(1, &["render", "mesh.vtu", "--integration", "partial", "--model", "emitter"]);
+    has(&text, &["quality.integration", "\"partial\"", "\"emitter\"", "\"exact\""]);
+    let text = run.bad(1, &["render", "mesh.vtu", "--integration", "vertex", "--isosurface", "1"]);
+    has(&text, &["quality.integration = \"vertex\"", "cannot cut", "\"map-smooth\""]);
+    run.write(
+        "a.toml",
+        "[mesh]\npath = \"mesh.vtu\"\n[quality]\nintegration = \"exact\"\nisosurfaces = \"map-stopped\"\n\
+         [[isosurface]]\nvalue = 1\ncolor = [1, 1, 1]\n",
+    );
+    has(&run.bad(1, &["render", "a.toml"]), &["a.toml", "map-stopped", "\"table-3d\""]);
+}
+
+#[test]
+fn keys_without_an_effect_are_said() {
+    let run = Run::new();
+    run.write(
+        "a.toml",
+        "[mesh]\npath = \"mesh.vtu\"\n[light]\nambient = 0.5\n[quality]\nintegration = \"table-3d\"\ntable_lengths = 8\n",
+    );
+    // With the integration goes what the scene says about its table.
+    let args = ["render", "a.toml", "--integration", "exact", "--table-size", "16", "--size", "8", "-o", "a.png"];
+    let output = run.tetrascope(&args);
+    let text = stderr(&output);
+    assert_eq!(output.status.code(), Some(0), "{text}");
+    has(&text, &["quality.table_size has no effect: the integration exact", "[light] has no effect: nothing is lit"]);
+    assert!(!text.contains("table_lengths"), "{text}");
 }
 
 #[test]

@@ -4,11 +4,11 @@ use glam::DVec3;
 use tetrascope_view::View;
 
 use crate::text::short;
-use crate::{MeshFacts, Plan};
+use crate::{IsosurfacePlan, MeshFacts, Plan};
 
 /// Reasons for which a plan gives a picture with nothing to see, each with a remedy; empty when none is known.
 ///
-/// Looks at the box around the mesh, the field's range and the transfer function, not at the mesh.
+/// Looks at the box around the mesh, the field's range, the isosurfaces and the transfer function, not at the mesh.
 pub fn explain_blank(plan: &Plan, facts: &MeshFacts) -> Vec<String> {
     let mut reasons = Vec::new();
     if let Some(side) = side_out_of_view(&plan.view, facts) {
@@ -25,6 +25,11 @@ pub fn explain_blank(plan: &Plan, facts: &MeshFacts) -> Vec<String> {
         && pixels < 2.0
     {
         reasons.push(format!("the mesh is {} pixels large: go nearer, or leave eye and target out", short(pixels)));
+    }
+    match surfaces_that_are_seen(plan, facts) {
+        Surfaces::Seen => return reasons,
+        Surfaces::Unseen(reason) => reasons.push(reason),
+        Surfaces::None => {}
     }
     let (low, high) = facts.scalar_range;
     let (first, last) = plan.transfer.domain();
@@ -57,6 +62,39 @@ pub fn explain_blank(plan: &Plan, facts: &MeshFacts) -> Vec<String> {
         reasons.push(reason);
     }
     reasons
+}
+
+/// What isosurfaces have to do with a blank picture.
+enum Surfaces {
+    /// There are none.
+    None,
+    /// They are not seen, and why.
+    Unseen(String),
+    /// Wherever a ray meets the mesh it may meet one of them, whatever the volume is.
+    Seen,
+}
+
+fn surfaces_that_are_seen(plan: &Plan, facts: &MeshFacts) -> Surfaces {
+    let Some(IsosurfacePlan { surfaces, .. }) = &plan.isosurfaces else { return Surfaces::None };
+    let all = surfaces.as_slice();
+    let (Some(first), Some(last)) = (all.first(), all.last()) else { return Surfaces::None };
+    let (low, high) = facts.scalar_range;
+    let crossed = &all[surfaces.between(low, high)];
+    if crossed.is_empty() {
+        return Surfaces::Unseen(format!(
+            "the field goes from {} to {} and meets no isosurface: their values go from {} to {}",
+            short(low),
+            short(high),
+            short(first.value),
+            short(last.value)
+        ));
+    }
+    // A ray that meets each of them once loses at most the sum of their opacities.
+    let opacity: f64 = crossed.iter().map(|surface| surface.opacity).sum();
+    if opacity < 1.0 / 255.0 {
+        return Surfaces::Unseen(format!("the opacities of the isosurfaces add up to {} only", short(opacity)));
+    }
+    Surfaces::Seen
 }
 
 /// Whether the mesh is so thin that hardly anything adds up across it, though its diagonal is long enough.

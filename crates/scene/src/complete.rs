@@ -1,5 +1,8 @@
 //! Fills what a scene file leaves open with numbers, and turns it into a [`Scene`].
 
+mod quality;
+mod surfaces;
+
 use glam::DVec3;
 use tetrascope_order::OrderMethod;
 use tetrascope_view::{Camera, Projection};
@@ -7,6 +10,9 @@ use tetrascope_view::{Camera, Projection};
 use crate::file::{Choice, ProjectionName, SceneFile};
 use crate::text::short;
 use crate::{Decision, MeshFacts, Scene, SceneError, defaults};
+
+use quality::{fill_isosurface_method, fill_order, fill_tables};
+use surfaces::{fill_isosurfaces, fill_light};
 
 /// The largest error wanted in a channel when a scene does not say: one step of 8 bits.
 pub const MAX_ERROR: f64 = 0.00392;
@@ -35,15 +41,15 @@ impl SceneFile {
         let (mut decisions, mut warnings) = (Vec::new(), Vec::new());
         let camera = fill_camera(&mut file, facts, &mut decisions, &mut warnings)?;
         let (color, extinction) = fill_transfer(&mut file, facts, &mut decisions, &mut warnings);
-        let order = fill_order(&mut file, &mut warnings);
-        if self.light.is_some() {
-            warnings.push("[light] has no effect: there is no isosurface to be lit".to_owned());
-        }
+        let isosurfaces = fill_isosurfaces(&mut file, facts, &mut warnings);
+        let lighting = fill_light(&mut file, &mut warnings);
+        let isosurface_method = fill_isosurface_method(&mut file, &mut warnings);
+        let order = fill_order(&mut file.quality, &mut warnings);
         let max_error = *file.quality.max_error.get_or_insert(MAX_ERROR);
         if !(0.0..=1.0).contains(&max_error) {
-            return Err(value("quality.max_error", max_error, "give a number from 0 to 1"));
+            return Err(SceneError::value("quality.max_error", max_error, "give a number from 0 to 1"));
         }
-        let scene = Scene {
+        let mut scene = Scene {
             camera,
             width: file.image.width,
             height: file.image.height,
@@ -51,14 +57,19 @@ impl SceneFile {
             model: file.optics.model,
             color,
             extinction,
+            isosurfaces,
+            isosurface_method,
+            lighting,
             integration: match file.quality.integration {
                 Choice::Auto => None,
                 Choice::Named(integration) => Some(integration),
             },
+            tables: None,
             order,
             backend: file.quality.backend,
             threads: None,
         };
+        scene.tables = fill_tables(&mut file.quality, scene.chosen_integration().0, &mut warnings);
         let plan = scene.plan()?;
         decisions.extend(plan.decisions);
         file.quality.integration = Choice::Named(plan.integration);
@@ -73,10 +84,6 @@ impl SceneFile {
     fn refuse_what_is_not_there(&self) -> Result<(), SceneError> {
         let not_supported =
             |key: &str, what, remedy| Err(SceneError::NotSupported { key: key.to_owned(), what, remedy });
-        if let Some(first) = self.isosurface.first() {
-            let key = format!("[[isosurface]] (value = {})", first.value);
-            return not_supported(&key, "surfaces of one value inside the volume", "remove the section");
-        }
         if let Some(first) = self.surface.first() {
             let key = format!("[[surface]] (path = \"{}\")", first.path.display());
             return not_supported(&key, "opaque geometry inside the volume", "remove the section");
@@ -108,7 +115,11 @@ fn fill_camera(
             }
             let fov_y = *section.fov_y.get_or_insert(defaults::FOV_Y_DEGREES);
             if !(fov_y > 0.0 && fov_y < 180.0) {
-                return Err(value("camera.fov_y", fov_y, "give an angle in degrees, above 0 and below 180"));
+                return Err(SceneError::value(
+                    "camera.fov_y",
+                    fov_y,
+                    "give an angle in degrees, above 0 and below 180",
+                ));
             }
             let fit = defaults::fit_perspective(facts, fov_y, width, height);
             (Projection::Perspective { fov_y: fov_y.to_radians() }, fit.distance)
@@ -187,25 +198,4 @@ fn fill_transfer(
     let color = section.color.get_or_insert_with(|| defaults::color((low, high))).clone();
     let extinction = section.extinction.get_or_insert_with(|| defaults::extinction(facts)).clone();
     (color, extinction)
-}
-
-fn fill_order(file: &mut SceneFile, warnings: &mut Vec<String>) -> Option<OrderMethod> {
-    let section = &file.quality;
-    match (section.order, section.slabs) {
-        (Choice::Named(OrderMethod::Bucket { .. }), Some(slabs)) => Some(OrderMethod::Bucket { slabs }),
-        (order, slabs) => {
-            if slabs.is_some() {
-                warnings.push(format!("quality.slabs has no effect: the order is {order}, not bucket"));
-                file.quality.slabs = None;
-            }
-            match order {
-                Choice::Auto => None,
-                Choice::Named(order) => Some(order),
-            }
-        }
-    }
-}
-
-fn value(key: &'static str, value: f64, expected: &'static str) -> SceneError {
-    SceneError::Value { key, value: value.to_string(), expected }
 }

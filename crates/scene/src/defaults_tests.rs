@@ -4,7 +4,7 @@
 
 use glam::DVec3;
 use proptest::prelude::*;
-use tetrascope_integrate::Integration;
+use tetrascope_integrate::{Integration, OpticalModel};
 use tetrascope_order::OrderMethod;
 
 use crate::{MeshFacts, Plan, SceneFile, defaults, explain_blank};
@@ -165,9 +165,25 @@ fn blank_pictures_have_a_reason() {
         ("[transfer]\nextinction = [[5.0, 0.0], [6.0, 2.0]]", "whole range"),
         ("[transfer]\nextinction = [[0.0, 1e-6]]", "too small"),
         ("[optics]\nmodel = \"emission\"\n[transfer]\ncolor = [[0.0, 0.0, 0.0, 0.0]]", "adds per length"),
+        ("[transfer]\nextinction = [[0, 0]]\n[[isosurface]]\nvalue = 9\ncolor = [1, 1, 1]", "meets no isosurface"),
+        ("[transfer]\nextinction = [[0, 0]]\n[[isosurface]]\nvalue = 9\ncolor = [1, 1, 1]", "whole range"),
+        ("[[isosurface]]\nvalue = 1\ncolor = [1, 1, 1]\nopacity = 1e-3", "add up to 0.001 only"),
     ] {
         let reasons = explain_blank(&plan(text, &facts()), &facts());
         assert!(reasons.iter().any(|r| r.contains(reason)), "{text}: {reasons:?}");
+    }
+}
+
+#[test]
+fn isosurfaces_alone_are_no_blank_picture() {
+    for model in OpticalModel::ALL {
+        let text = format!(
+            "[optics]\nmodel = \"{model}\"\n[transfer]\ncolor = [[0, 0, 0, 0]]\nextinction = [[0, 0]]\n\
+             [[isosurface]]\nvalue = 1.0\ncolor = [1, 1, 1]\nopacity = 0.5\n"
+        );
+        assert_eq!(explain_blank(&plan(&text, &facts()), &facts()), Vec::<String>::new(), "{model}");
+        let aside = format!("[camera]\neye = [1.0, 0.75, 9.0]\ntarget = [1.0, 0.75, 12.0]\n{text}");
+        assert!(explain_blank(&plan(&aside, &facts()), &facts())[0].contains("behind it"));
     }
 }
 

@@ -1,6 +1,6 @@
 //! Why a scene cannot be drawn.
 
-use tetrascope_integrate::TransferFunctionError;
+use tetrascope_integrate::{IsosurfaceError, MethodError, TransferFunctionError};
 use tetrascope_view::ViewError;
 
 /// What is wrong with a scene's values, as against its text.
@@ -21,16 +21,72 @@ pub enum SceneError {
     #[error("{key} is {value}; {expected}")]
     Value {
         /// The key, with its section.
-        key: &'static str,
+        key: String,
         /// What it is.
         value: String,
         /// What it must be.
-        expected: &'static str,
+        expected: String,
+    },
+    /// Two keys ask for what does not go together.
+    #[error("{key} = \"{value}\" {problem}; {remedy}")]
+    Conflict {
+        /// One of the keys, with its section.
+        key: &'static str,
+        /// What it asks for.
+        value: String,
+        /// Why the other key makes that impossible.
+        problem: String,
+        /// What to do instead.
+        remedy: &'static str,
     },
     /// The camera or the picture's size.
     #[error(transparent)]
     View(#[from] ViewError),
     /// The transfer function.
-    #[error("transfer: {0}")]
+    #[error("{}", of_transfer(.0))]
     Transfer(#[from] TransferFunctionError),
+    /// The isosurfaces, for a reason that is no number out of its range.
+    #[error("[[isosurface]]: {0}")]
+    Isosurface(IsosurfaceError),
+    /// The way to integrate.
+    #[error("quality.integration: {0}")]
+    Integration(MethodError),
+}
+
+impl SceneError {
+    /// A number out of its range.
+    pub(crate) fn value(key: impl Into<String>, value: impl ToString, expected: impl Into<String>) -> Self {
+        Self::Value { key: key.into(), value: value.to_string(), expected: expected.into() }
+    }
+}
+
+impl From<IsosurfaceError> for SceneError {
+    fn from(error: IsosurfaceError) -> Self {
+        match error {
+            IsosurfaceError::Value { index, component, value, expected } => {
+                Self::value(format!("isosurface[{index}].{component}"), value, expected)
+            }
+            other => Self::Isosurface(other),
+        }
+    }
+}
+
+impl From<MethodError> for SceneError {
+    fn from(error: MethodError) -> Self {
+        match error {
+            MethodError::TableSize { what, size, least, most } => {
+                let key = if what == "lengths" { "quality.table_lengths" } else { "quality.table_size" };
+                Self::value(key, size, format!("give {least} to {most}"))
+            }
+            other => Self::Integration(other),
+        }
+    }
+}
+
+/// The key and what is wrong with it: the list of a transfer function is named like its key.
+fn of_transfer(error: &TransferFunctionError) -> String {
+    match error {
+        TransferFunctionError::Empty { list } => format!("transfer.{list} is empty; give at least one control point"),
+        other => format!("transfer.{other}"),
+    }
 }

@@ -2,15 +2,20 @@
 //!
 //! What may be left out is an `Option`; [`SceneFile::complete`] fills it with numbers. Unknown keys are refused.
 
-use std::fmt::Display;
+mod names;
+mod quality;
+mod surfaces;
+
 use std::path::PathBuf;
-use std::str::FromStr;
 
-use serde::{Deserialize, Deserializer, Serialize, Serializer};
-use tetrascope_integrate::{Integration, OpticalModel};
-use tetrascope_order::OrderMethod;
+use serde::{Deserialize, Serialize};
+use tetrascope_integrate::OpticalModel;
 
-use crate::Backend;
+pub use names::Choice;
+pub use quality::{IsosurfaceMethodName, LengthAxisName, QualitySection};
+pub use surfaces::{IsosurfaceSection, LightDirection, LightName, LightSection, Shading, SurfaceSection};
+
+use names::as_name;
 
 /// A scene as its file says it: everything one picture depends on.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -36,7 +41,7 @@ pub struct SceneFile {
     /// Opaque geometry standing in the volume.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub surface: Vec<SurfaceSection>,
-    /// For shaded isosurfaces.
+    /// For shaded isosurfaces, and for the volume where it is lit.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub light: Option<LightSection>,
     /// How it is computed.
@@ -143,177 +148,6 @@ pub struct TransferSection {
     /// A color map file, in place of the two.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub preset: Option<PathBuf>,
-}
-
-/// `[[isosurface]]`
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct IsosurfaceSection {
-    /// The scalar on it.
-    pub value: f64,
-    /// Linear RGB of the side that faces rising scalars.
-    pub color: [f64; 3],
-    /// Linear RGB of the other side; none means the same.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub back_color: Option<[f64; 3]>,
-    /// 0 to 1.
-    #[serde(default = "opaque")]
-    pub opacity: f64,
-    /// How light falls on it.
-    #[serde(default)]
-    pub shading: Shading,
-}
-
-fn opaque() -> f64 {
-    1.0
-}
-
-/// `isosurface.shading`
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "lowercase")]
-pub enum Shading {
-    /// Its color, everywhere.
-    #[default]
-    None,
-    /// One normal a cell.
-    Flat,
-    /// Interpolated gradients.
-    Smooth,
-}
-
-/// `[[surface]]`
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct SurfaceSection {
-    /// The geometry file, relative to the scene file.
-    pub path: PathBuf,
-}
-
-/// `[light]`
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields, default)]
-pub struct LightSection {
-    /// From the surface towards the light.
-    pub direction: LightDirection,
-    /// Share of the color that is there without light.
-    pub ambient: f64,
-    /// Share that depends on the angle of the light.
-    pub diffuse: f64,
-    /// Strength of the highlight.
-    pub specular: f64,
-    /// Its sharpness.
-    pub shininess: f64,
-}
-
-impl Default for LightSection {
-    fn default() -> Self {
-        Self {
-            direction: LightDirection::Named(LightName::Headlight),
-            ambient: 0.2,
-            diffuse: 0.7,
-            specular: 0.3,
-            shininess: 32.0,
-        }
-    }
-}
-
-/// `light.direction`
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(untagged, expecting = "expected \"headlight\" or a vector of three numbers")]
-pub enum LightDirection {
-    /// By name.
-    Named(LightName),
-    /// World coordinates.
-    Vector([f64; 3]),
-}
-
-/// Lights that have a name.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "lowercase")]
-pub enum LightName {
-    /// From where the eye is.
-    Headlight,
-}
-
-/// `[quality]`
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields, default)]
-pub struct QualitySection {
-    /// How a ray's segment in a cell becomes color and opacity.
-    pub integration: Choice<Integration>,
-    /// In which order cells are blended.
-    pub order: Choice<OrderMethod>,
-    /// Number of slabs, for `order = "bucket"` only.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub slabs: Option<u32>,
-    /// The largest error wanted in a channel, 0 to 1.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub max_error: Option<f64>,
-    /// Who computes.
-    #[serde(with = "as_name")]
-    pub backend: Backend,
-}
-
-/// A method by name, or the freedom to choose one.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Choice<T> {
-    /// `"auto"`: chosen for the scene, with a reason.
-    #[default]
-    Auto,
-    /// This one.
-    Named(T),
-}
-
-impl<T: FromStr> FromStr for Choice<T> {
-    type Err = T::Err;
-
-    fn from_str(name: &str) -> Result<Self, T::Err> {
-        if name == "auto" { Ok(Self::Auto) } else { name.parse().map(Self::Named) }
-    }
-}
-
-impl<T: Display> Display for Choice<T> {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        match self {
-            Self::Auto => f.write_str("auto"),
-            Self::Named(method) => method.fmt(f),
-        }
-    }
-}
-
-impl<T: Display> Serialize for Choice<T> {
-    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        serializer.collect_str(self)
-    }
-}
-
-impl<'de, T> Deserialize<'de> for Choice<T>
-where
-    T: FromStr,
-    T::Err: Display,
-{
-    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        as_name::deserialize(deserializer)
-    }
-}
-
-/// Reads and writes what has `FromStr` and `Display` as a string.
-mod as_name {
-    use super::{Deserialize, Deserializer, Display, FromStr, Serializer};
-    use serde::de::Error;
-
-    pub(super) fn serialize<T: Display, S: Serializer>(value: &T, serializer: S) -> Result<S::Ok, S::Error> {
-        serializer.collect_str(value)
-    }
-
-    pub(super) fn deserialize<'de, T, D>(deserializer: D) -> Result<T, D::Error>
-    where
-        T: FromStr,
-        T::Err: Display,
-        D: Deserializer<'de>,
-    {
-        String::deserialize(deserializer)?.parse().map_err(D::Error::custom)
-    }
 }
 
 impl SceneFile {

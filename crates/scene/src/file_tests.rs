@@ -49,10 +49,16 @@ ambient = 0.1
 diffuse = 0.8
 specular = 0.4
 shininess = 16.0
+volume = true
 [quality]
 integration = "average"
 order = "bucket"
 slabs = 77
+table_size = 33
+table_lengths = 17
+length_axis = "logarithmic"
+isosurfaces = "map-smooth"
+map_size = 100
 max_error = 0.01
 backend = "reference"
 "#;
@@ -129,10 +135,14 @@ fn wrong_values_are_named_with_key_and_line() {
         ("camera", "projection", "\"fisheye\"", "`perspective` or `orthographic`"),
         ("optics", "model", "\"fog\"", "density-emitter"),
         ("quality", "integration", "\"exakt\"", "\"exact\""),
-        ("quality", "integration", "\"table-3d\"", "not there yet"),
+        ("quality", "length_axis", "\"cubic\"", "`linear` or `logarithmic`"),
+        ("quality", "isosurfaces", "\"map\"", "`map-smooth`"),
+        ("quality", "table_size", "64.5", "u32"),
         ("quality", "order", "\"mpvo\"", "not in this version"),
         ("quality", "backend", "\"gpu\"", "cpu and reference"),
         ("light", "direction", "\"sun\"", "headlight"),
+        ("light", "direction", "[0, 1]", "headlight"),
+        ("light", "volume", "1", "boolean"),
         ("transfer", "extinction", "[\n[0.0, 1.0],\n[1.0]]", "length"),
     ] {
         let text = message(&format!("[mesh]\npath = \"m\"\n[{section}]\n{key} = {value}\n"), "a.toml");
@@ -153,7 +163,6 @@ fn a_byte_order_mark_is_no_error() {
 #[test]
 fn effects_that_are_not_there_are_refused_by_name() {
     for (text, key) in [
-        ("[[isosurface]]\nvalue = 1.5\ncolor = [1, 1, 1]", "[[isosurface]] (value = 1.5)"),
         ("[[surface]]\npath = \"fin.glb\"", "[[surface]] (path = \"fin.glb\")"),
         ("[transfer]\npreset = \"a.json\"", "transfer.preset"),
     ] {
@@ -171,6 +180,11 @@ fn keys_without_an_effect_give_a_warning() {
         ("[camera]\nheight = 2.0", "camera.height"),
         ("[camera]\nprojection = \"orthographic\"\nfov_y = 20.0", "camera.fov_y"),
         ("[quality]\nslabs = 8", "quality.slabs"),
+        ("[quality]\ntable_size = 8", "quality.table_size"),
+        ("[quality]\nintegration = \"partial\"\nlength_axis = \"linear\"", "quality.length_axis"),
+        ("[quality]\nintegration = \"table-2d\"\ntable_lengths = 8", "quality.table_lengths"),
+        ("[quality]\nisosurfaces = \"exact\"", "quality.isosurfaces"),
+        ("[quality]\nmap_size = 8", "quality.map_size"),
     ] {
         let completed = toml(&format!("[mesh]\npath = \"m\"\n{text}\n")).complete(&facts()).unwrap();
         assert_eq!(completed.warnings.len(), 1);
@@ -189,8 +203,15 @@ fn numbers_out_of_range_are_refused() {
         ("[camera]\neye = [1.0, 0.0, inf]", "eye is not finite"),
         ("[image]\nwidth = 0", "0 x 512"),
         ("[image]\nbackground = [0.0, -1.0, 0.0]", "image.background"),
-        ("[transfer]\ncolor = []", "transfer: the color list is empty"),
-        ("[transfer]\nextinction = [[1.0, 0.0], [0.0, 1.0]]", "transfer: extinction entry 1"),
+        ("[transfer]\ncolor = []", "transfer.color is empty; give at least one"),
+        ("[transfer]\nextinction = []", "transfer.extinction is empty"),
+        ("[transfer]\nextinction = [[1.0, 0.0], [0.0, 1.0]]", "transfer.extinction entry 1: scalar 0 lies below 1"),
+        ("[transfer]\nextinction = [[1.0, 0.0], [2.0, -1.0]]", "transfer.extinction entry 1: extinction is -1"),
+        ("[transfer]\nextinction = [[nan, 0.0]]", "transfer.extinction entry 0: scalar is NaN"),
+        ("[transfer]\nextinction = [[0.0, inf]]", "transfer.extinction entry 0: extinction is inf"),
+        ("[transfer]\ncolor = [[1.0, 0, 0, 0], [0.5, 0, 0, 0]]", "transfer.color entry 1: scalar 0.5 lies below 1"),
+        ("[transfer]\ncolor = [[1.0, 0, -2, 0]]", "transfer.color entry 0: green is -2"),
+        ("[transfer]\ncolor = [[1.0, 0, 0, nan]]", "transfer.color entry 0: blue is NaN"),
         ("[quality]\norder = \"bucket\"\nslabs = 0", "quality.slabs is 0"),
     ] {
         let error = toml(&format!("[mesh]\npath = \"m\"\n{text}\n")).complete(&facts()).unwrap_err().to_string();
@@ -206,6 +227,11 @@ fn a_completed_scene_is_complete() {
         "[optics]\nmodel = \"absorption\"",
         "[quality]\norder = \"bucket\"\n[image]\nwidth = 100",
         "[camera]\nup = [0, 0, 1]",
+        "[quality]\nintegration = \"table-2d\"",
+        "[quality]\nintegration = \"table-3d\"\ntable_size = 32",
+        "[quality]\nisosurfaces = \"map-stopped\"\n[[isosurface]]\nvalue = 1.5\ncolor = [1, 0.5, 0.1]",
+        "[[isosurface]]\nvalue = 1.5\ncolor = [1, 0.5, 0.1]\nopacity = 0.25\nshading = \"flat\"",
+        "[light]\nvolume = true\ndirection = [1.0, 2.0, 3.0]",
     ] {
         let once = toml(&format!("[mesh]\npath = \"m\"\n{text}\n")).complete(&facts()).unwrap();
         let again = toml(&once.file.to_toml().unwrap()).complete(&facts()).unwrap();
@@ -213,6 +239,8 @@ fn a_completed_scene_is_complete() {
         assert_eq!(again.warnings, Vec::<String>::new());
         let (a, b) = (once.scene.plan().unwrap(), again.scene.plan().unwrap());
         assert_eq!((a.view, a.transfer.pieces(), a.order), (b.view, b.transfer.pieces(), b.order));
+        assert_eq!((a.integration, a.tables), (b.integration, b.tables));
+        assert_eq!((a.isosurfaces, a.lighting), (b.isosurfaces, b.lighting));
         // Nothing depends on the mesh any more.
         let elsewhere = MeshFacts { lowest: DVec3::ZERO, highest: DVec3::splat(9.0), scalar_range: (7.0, 8.0) };
         let moved = toml(&once.file.to_toml().unwrap()).complete(&elsewhere).unwrap();

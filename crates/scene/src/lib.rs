@@ -26,8 +26,8 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
-//! Limits: isosurfaces, surfaces, color map files and lighting are read and refused by name. The crate opens no file and
-//! draws nothing. Without the feature `file` it needs no serde and is the plan, the scene and the fields alone.
+//! Limits: surfaces from files and color map files are read and refused by name. The crate opens no file and draws
+//! nothing. Without the feature `file` it needs no serde and is the plan, the scene and the fields alone.
 
 mod blank;
 #[cfg(feature = "file")]
@@ -53,8 +53,9 @@ pub use facts::MeshFacts;
 pub use field::{ArraySummary, Association, Field, FieldError, Part, select_field, summarize_arrays};
 #[cfg(feature = "file")]
 pub use file::{
-    CameraSection, Choice, ImageSection, IsosurfaceSection, LightDirection, LightName, LightSection, MeshSection,
-    OpticsSection, ProjectionName, QualitySection, SceneFile, Shading, SurfaceSection, TransferSection,
+    CameraSection, Choice, ImageSection, IsosurfaceMethodName, IsosurfaceSection, LengthAxisName, LightDirection,
+    LightName, LightSection, MeshSection, OpticsSection, ProjectionName, QualitySection, SceneFile, Shading,
+    SurfaceSection, TransferSection,
 };
 pub use finite::{FieldOnMesh, place_on_mesh};
 #[cfg(feature = "file")]
@@ -72,3 +73,5 @@ mod defaults_tests;
 mod field_tests;
 #[cfg(all(test, feature = "file"))]
 mod file_tests;
+#[cfg(all(test, feature = "file"))]
+mod surface_tests;

@@ -69,6 +69,24 @@ pub enum IsosurfaceMethod {
     },
 }
 
+impl IsosurfaceMethod {
+    /// The usual number of samples along a side of a map: as in [Röttger 2000], figure 13.
+    pub const MAP_SIZE: u32 = 256;
+    /// The least number.
+    pub const LEAST_MAP_SIZE: u32 = 2;
+    /// The largest number: a map of it takes 256 MiB.
+    pub const MOST_MAP_SIZE: u32 = 4096;
+
+    /// The name in a scene file.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Exact => "exact",
+            Self::Map { mixing: Mixing::Smooth, .. } => "map-smooth",
+            Self::Map { mixing: Mixing::Stopped, .. } => "map-stopped",
+        }
+    }
+}
+
 /// How isosurfaces out of maps are mixed with the volume ([Röttger 2000], section 10).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Mixing {
@@ -88,6 +106,14 @@ pub struct Lighting {
     pub direction: Option<DVec3>,
     /// Whether the volume is lit too, by its gradients ([Marroquim 2008], figure 11 b).
     pub volume: bool,
+}
+
+/// A light at the eye that falls on shaded surfaces only.
+impl Default for Lighting {
+    fn default() -> Self {
+        let phong = Phong { ambient: 0.2, diffuse: 0.7, specular: 0.3, shininess: 32.0 };
+        Self { phong, direction: None, volume: false }
+    }
 }
 
 /// Which gradients a plan needs.

@@ -1,10 +1,13 @@
 //! A scene with nothing left open, and the plan that follows from it.
 
-use tetrascope_integrate::{Integration, OpticalModel, TableSettings, TransferFunction};
+mod light;
+mod methods;
+
+use tetrascope_integrate::{Integration, Isosurface, Isosurfaces, OpticalModel, TableSettings, TransferFunction};
 use tetrascope_order::OrderMethod;
 use tetrascope_view::{Camera, View};
 
-use crate::{Backend, Decision, Plan, SceneError};
+use crate::{Backend, Decision, IsosurfaceMethod, IsosurfacePlan, Lighting, Plan, SceneError};
 
 /// Everything one picture depends on besides mesh and field, as numbers.
 #[derive(Clone, Debug, PartialEq)]
@@ -23,8 +26,16 @@ pub struct Scene {
     pub color: Vec<[f64; 4]>,
     /// Scalar and extinction per world unit of length.
     pub extinction: Vec<[f64; 2]>,
+    /// Surfaces of one value, in any order. Those of opacity 0 are left out of the plan.
+    pub isosurfaces: Vec<Isosurface>,
+    /// How a ray meets them.
+    pub isosurface_method: IsosurfaceMethod,
+    /// The light, its direction of any length; `None` is [`Lighting::default`] where a surface is shaded.
+    pub lighting: Option<Lighting>,
     /// How a segment becomes color and opacity; `None` leaves it to [`Scene::plan`].
     pub integration: Option<Integration>,
+    /// Sizes of the integration's table; `None` takes the usual ones. Without effect for an integration without a table.
+    pub tables: Option<TableSettings>,
     /// In which order cells are blended; `None` leaves it to [`Scene::plan`].
     pub order: Option<OrderMethod>,
     /// Who computes.
@@ -41,58 +52,63 @@ impl Scene {
     /// Decides what is computed for this scene and what is left out.
     ///
     /// # Errors
-    /// [`SceneError`] if the camera, the picture's size, the background or the transfer function has numbers that make no
-    /// picture.
+    /// [`SceneError`] if the camera, the picture's size, the background, the transfer function, an isosurface, the light or
+    /// a table's size has numbers that make no picture, and for methods that do not go together.
     pub fn plan(&self) -> Result<Plan, SceneError> {
         let view = View::new(&self.camera, self.width, self.height)?;
         let transfer = TransferFunction::new(&self.color, &self.extinction)?;
         if !self.background.iter().all(|c| c.is_finite() && *c >= 0.0) {
             let value = format!("{:?}", self.background);
-            return Err(SceneError::Value {
-                key: "image.background",
-                value,
-                expected: "give three finite numbers, zero or more",
-            });
+            return Err(SceneError::value("image.background", value, "give three finite numbers, zero or more"));
         }
-        if let Some(OrderMethod::Bucket { slabs: 0 }) = self.order {
-            return Err(SceneError::Value {
-                key: "quality.slabs",
-                value: "0".to_owned(),
-                expected: "give one or more",
-            });
-        }
+        let isosurfaces = self.isosurfaces()?;
+        let lighting = self.lighting(isosurfaces.as_ref())?;
         let mut decisions = Vec::new();
-        let integration = self.decide_integration(&mut decisions);
-        let order = self.decide_order(&mut decisions);
-        self.say_what_is_left_out(&mut decisions);
-        Ok(Plan {
+        let (integration, tables) = self.decide_integration(&mut decisions)?;
+        self.check_isosurface_method(integration, isosurfaces.as_ref(), lighting.as_ref())?;
+        self.decide_isosurfaces(isosurfaces.as_ref(), &mut decisions);
+        let order = self.decide_order(isosurfaces.is_some(), &mut decisions)?;
+        let plan = Plan {
             view,
             background: self.background.map(|c| c as f32),
             transfer,
             model: self.model,
             integration,
-            tables: TableSettings::of(integration),
-            isosurfaces: None,
-            lighting: None,
+            tables,
+            isosurfaces,
+            lighting,
             order,
             backend: self.backend,
             threads: self.threads,
             termination: Self::TERMINATION,
             decisions,
-        })
-    }
-
-    fn decide_integration(&self, decisions: &mut Vec<Decision>) -> Integration {
-        let (integration, reason) = match self.integration {
-            Some(asked) => (asked, "asked for"),
-            None => (Integration::Exact, "closed form in every piece of the transfer function: no error to trade"),
         };
-        decisions.push(Decision::new("integration", integration.to_string(), reason));
-        integration
+        Ok(self.say_what_light_needs(plan))
     }
 
-    fn decide_order(&self, decisions: &mut Vec<Decision>) -> OrderMethod {
-        let commutes = self.model.is_commutative();
+    /// The isosurfaces that hide anything, checked.
+    fn isosurfaces(&self) -> Result<Option<IsosurfacePlan>, SceneError> {
+        // All are checked, with the indices of the scene, before any is left out.
+        let all = Isosurfaces::new(self.isosurfaces.clone())?;
+        let seen: Vec<_> = all.as_slice().iter().copied().filter(|surface| surface.opacity > 0.0).collect();
+        if seen.is_empty() {
+            return Ok(None);
+        }
+        if let IsosurfaceMethod::Map { size, .. } = self.isosurface_method {
+            let (least, most) = (IsosurfaceMethod::LEAST_MAP_SIZE, IsosurfaceMethod::MOST_MAP_SIZE);
+            if !(least..=most).contains(&size) {
+                return Err(SceneError::value("quality.map_size", size, format!("give {least} to {most}")));
+            }
+        }
+        Ok(Some(IsosurfacePlan { surfaces: Isosurfaces::new(seen)?, method: self.isosurface_method }))
+    }
+
+    fn decide_order(&self, has_isosurfaces: bool, decisions: &mut Vec<Decision>) -> Result<OrderMethod, SceneError> {
+        if let Some(OrderMethod::Bucket { slabs: 0 }) = self.order {
+            return Err(SceneError::value("quality.slabs", 0, "give one or more"));
+        }
+        // A surface hides what is behind it in every optical model.
+        let commutes = self.model.is_commutative() && !has_isosurfaces;
         let (order, reason) = match self.order {
             Some(OrderMethod::None) if !commutes => {
                 (OrderMethod::None, "asked for; cells are blended as they come, which is wrong where they overlap")
@@ -112,16 +128,19 @@ impl Scene {
         } else {
             decisions.push(Decision::new("order", choice, reason));
         }
-        order
+        Ok(order)
     }
 
-    fn say_what_is_left_out(&self, decisions: &mut Vec<Decision>) {
-        decisions.push(Decision::new("gradients", "none", "no lighting"));
+    /// Adds the decisions on light, gradients and the half of the transfer function that is not looked at.
+    fn say_what_light_needs(&self, mut plan: Plan) -> Plan {
+        let mut said = light::decisions(&plan);
         if !self.model.needs_emission() {
-            decisions.push(Decision::new("color", "none", "absorption ignores it"));
+            said.push(Decision::new("color", "none", "absorption ignores it"));
         }
         if !self.model.needs_extinction() {
-            decisions.push(Decision::new("extinction", "none", "emission ignores it"));
+            said.push(Decision::new("extinction", "none", "emission ignores it"));
         }
+        plan.decisions.append(&mut said);
+        plan
     }
 }

@@ -22,7 +22,7 @@
 //!
 //! Every step is public: keep the [`Volume`] to draw other fields, and a [`CpuRenderer`] to draw one from many sides.
 //!
-//! Limits: the back ends are the CPU's; isosurfaces, surfaces and lighting are not there yet and refused by name.
+//! Limits: the back ends are the CPU's; surfaces from files and color map files are not there yet and refused by name.
 
 mod error;
 mod render;
@@ -33,7 +33,10 @@ pub use render::{Picture, is_blank, render_scene, render_volume, warn_of_non_fin
 pub use volume::{SAMPLE, Volume, VolumeField, is_builtin, resolve_path};
 
 pub use tetrascope_cpu::{Counts, CpuRenderer, RenderError, Rendered, reference};
-pub use tetrascope_integrate::{Integration, OpticalModel, TransferFunction};
+pub use tetrascope_integrate::{
+    Integration, Isosurface, IsosurfaceError, Isosurfaces, LengthAxis, MethodError, OpticalModel, Phong,
+    SurfaceShading, TableSettings, TransferFunction,
+};
 pub use tetrascope_io::{IoError, Loaded, read_exr, read_mesh, readers, write_exr, write_image, write_png};
 pub use tetrascope_mesh::{
     ArrayValues, CellKind, Cells, DataArray, Dataset, Decomposition, MeshError, StructuredBlock, TetMesh,
@@ -41,9 +44,10 @@ pub use tetrascope_mesh::{
 };
 pub use tetrascope_order::OrderMethod;
 pub use tetrascope_scene::{
-    ArraySummary, Association, Backend, Choice, Completed, Decision, Field, FieldError, FieldOnMesh, MeshFacts, Plan,
-    Progress, ProjectionName, Scene, SceneError, SceneFile, SceneSyntaxError, Silent, Stage, explain_blank,
-    select_field, short, summarize_arrays,
+    ArraySummary, Association, Backend, Choice, Completed, Decision, Field, FieldError, FieldOnMesh, Gradients,
+    IsosurfaceMethod, IsosurfaceMethodName, IsosurfacePlan, IsosurfaceSection, LengthAxisName, LightDirection,
+    LightName, LightSection, Lighting, MeshFacts, Mixing, Plan, Progress, ProjectionName, Scene, SceneError, SceneFile,
+    SceneSyntaxError, Shading, Silent, Stage, explain_blank, select_field, short, summarize_arrays,
 };
 pub use tetrascope_view::{Camera, LinearImage, Projection, View, ViewError};
 

@@ -1,0 +1,87 @@
+//! The section that says how a picture is computed.
+
+use serde::{Deserialize, Serialize};
+use tetrascope_integrate::{Integration, LengthAxis};
+use tetrascope_order::OrderMethod;
+
+use super::names::{Choice, as_name};
+use crate::{Backend, IsosurfaceMethod, Mixing};
+
+/// `[quality]`
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct QualitySection {
+    /// How a ray's segment in a cell becomes color and opacity.
+    pub integration: Choice<Integration>,
+    /// In which order cells are blended.
+    pub order: Choice<OrderMethod>,
+    /// Number of slabs, for `order = "bucket"` only.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub slabs: Option<u32>,
+    /// Samples along each scalar axis of a table, and along its axis of lengths unless `table_lengths` says otherwise;
+    /// for `integration = "table-2d"` and `"table-3d"` only.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub table_size: Option<u32>,
+    /// Samples along the axis of chord lengths, for `integration = "table-3d"` only.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub table_lengths: Option<u32>,
+    /// How those are spaced.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub length_axis: Option<LengthAxisName>,
+    /// How isosurfaces are found along a ray.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub isosurfaces: Option<IsosurfaceMethodName>,
+    /// Samples along each side of the maps of isosurfaces, for `isosurfaces = "map-smooth"` and `"map-stopped"` only.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub map_size: Option<u32>,
+    /// The largest error wanted in a channel, 0 to 1.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub max_error: Option<f64>,
+    /// Who computes.
+    #[serde(with = "as_name")]
+    pub backend: Backend,
+}
+
+/// `quality.length_axis`
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum LengthAxisName {
+    /// Evenly.
+    #[default]
+    Linear,
+    /// As many in every octave.
+    Logarithmic,
+}
+
+impl From<LengthAxisName> for LengthAxis {
+    fn from(name: LengthAxisName) -> Self {
+        match name {
+            LengthAxisName::Linear => Self::Linear,
+            LengthAxisName::Logarithmic => Self::Logarithmic,
+        }
+    }
+}
+
+/// `quality.isosurfaces`
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum IsosurfaceMethodName {
+    /// [`IsosurfaceMethod::Exact`].
+    #[default]
+    Exact,
+    /// [`IsosurfaceMethod::Map`] with [`Mixing::Smooth`].
+    MapSmooth,
+    /// [`IsosurfaceMethod::Map`] with [`Mixing::Stopped`].
+    MapStopped,
+}
+
+impl IsosurfaceMethodName {
+    /// The method with maps of this size, where it has any.
+    pub const fn with_size(self, size: u32) -> IsosurfaceMethod {
+        match self {
+            Self::Exact => IsosurfaceMethod::Exact,
+            Self::MapSmooth => IsosurfaceMethod::Map { size, mixing: Mixing::Smooth },
+            Self::MapStopped => IsosurfaceMethod::Map { size, mixing: Mixing::Stopped },
+        }
+    }
+}

@@ -1,0 +1,123 @@
+//! Which integration, which table and which way to isosurfaces, and whether they go together.
+
+use tetrascope_integrate::{Integration, LengthAxis, SurfaceShading, TableSettings};
+
+use super::Scene;
+use crate::text::short;
+use crate::{Decision, IsosurfaceMethod, IsosurfacePlan, Lighting, Mixing, SceneError};
+
+impl Scene {
+    /// The integration, and why.
+    pub(crate) fn chosen_integration(&self) -> (Integration, &'static str) {
+        let stops = matches!(self.isosurface_method, IsosurfaceMethod::Map { mixing: Mixing::Stopped, .. });
+        match self.integration {
+            Some(asked) => (asked, "asked for"),
+            None if stops && self.isosurfaces.iter().any(|surface| surface.opacity > 0.0) => {
+                (Integration::Table3d, "isosurfaces by \"map-stopped\" need a table, and this one knows the length")
+            }
+            None => (Integration::Exact, "closed form in every piece of the transfer function: no error to trade"),
+        }
+    }
+
+    pub(super) fn decide_integration(
+        &self,
+        decisions: &mut Vec<Decision>,
+    ) -> Result<(Integration, Option<TableSettings>), SceneError> {
+        let (integration, reason) = self.chosen_integration();
+        integration.check(self.model)?;
+        let tables = TableSettings::of(integration).map(|usual| self.tables.unwrap_or(usual));
+        let choice = match &tables {
+            None => integration.to_string(),
+            Some(tables) => {
+                tables.check()?;
+                format!("{integration}, {}", size_of(integration, tables))
+            }
+        };
+        decisions.push(Decision::new("integration", choice, reason));
+        if tables.is_none() {
+            decisions.push(Decision::new("tables", "none", "the integration looks nothing up"));
+        }
+        Ok((integration, tables))
+    }
+
+    /// Refuses ways to isosurfaces that the integration, the shading or the opacities do not allow.
+    pub(super) fn check_isosurface_method(
+        &self,
+        integration: Integration,
+        isosurfaces: Option<&IsosurfacePlan>,
+        lighting: Option<&Lighting>,
+    ) -> Result<(), SceneError> {
+        let Some(IsosurfacePlan { surfaces, method }) = isosurfaces else { return Ok(()) };
+        let stopped = |problem: String, remedy| SceneError::Conflict {
+            key: "quality.isosurfaces",
+            value: method.name().to_owned(),
+            problem,
+            remedy,
+        };
+        match method {
+            IsosurfaceMethod::Exact if integration.needs_fan() => Err(SceneError::Conflict {
+                key: "quality.integration",
+                value: integration.to_string(),
+                problem: "paints triangles, which isosurfaces by \"exact\" cannot cut".to_owned(),
+                remedy: "use another integration, such as \"exact\", or quality.isosurfaces = \"map-smooth\"",
+            }),
+            IsosurfaceMethod::Map { mixing: Mixing::Stopped, .. } if !integration.needs_table() => Err(stopped(
+                format!("stops the integral in a table, and quality.integration = \"{integration}\" has none"),
+                "use integration \"table-2d\" or \"table-3d\", or isosurfaces \"exact\" or \"map-smooth\"",
+            )),
+            IsosurfaceMethod::Map { mixing: Mixing::Stopped, .. } if lighting.is_some() && !surfaces.are_opaque() => {
+                let lit =
+                    if surfaces.shading() == SurfaceShading::None { "a lit volume" } else { "shaded isosurfaces" };
+                Err(stopped(
+                    format!(
+                        "puts transparent isosurfaces into the table, where light cannot reach them, and there is {lit}"
+                    ),
+                    "make all opacities 1, or use \"exact\" or \"map-smooth\"",
+                ))
+            }
+            _ => Ok(()),
+        }
+    }
+
+    pub(super) fn decide_isosurfaces(&self, isosurfaces: Option<&IsosurfacePlan>, decisions: &mut Vec<Decision>) {
+        let Some(IsosurfacePlan { surfaces, method }) = isosurfaces else {
+            let reason = if self.isosurfaces.is_empty() { "no map, no crossing" } else { "the opacity of all is 0" };
+            decisions.push(Decision::new("isosurfaces", "none", reason));
+            return;
+        };
+        let count = surfaces.as_slice().len();
+        let (maps, reason) = match method {
+            IsosurfaceMethod::Exact => (String::new(), "rays are cut where they cross them; no map"),
+            IsosurfaceMethod::Map { size, mixing: Mixing::Smooth } => {
+                (format!(", {size} x {size} samples"), "looked up; the volume is blended between front and back faces")
+            }
+            IsosurfaceMethod::Map { size, mixing: Mixing::Stopped } if surfaces.are_opaque() => {
+                (format!(", {size} x {size} samples"), "looked up; the table's integral stops at them")
+            }
+            IsosurfaceMethod::Map { size, mixing: Mixing::Stopped } => {
+                (format!(", {size} x {size} samples"), "looked up; the table has them in its light")
+            }
+        };
+        let invisible = self.isosurfaces.len() - count;
+        let left_out = if invisible == 0 { String::new() } else { format!("; {invisible} of opacity 0 left out") };
+        let choice = format!("{count} by {}{maps}", method.name());
+        decisions.push(Decision::new("isosurfaces", choice, format!("{reason}{left_out}")));
+    }
+}
+
+/// Samples along each axis, and memory.
+fn size_of(integration: Integration, tables: &TableSettings) -> String {
+    /// Red, green, blue and opacity in 32 bits each.
+    const BYTES_AN_ENTRY: f64 = 16.0;
+    let TableSettings { scalars, lengths, length_axis } = *tables;
+    let plane = f64::from(scalars) * f64::from(scalars) * BYTES_AN_ENTRY;
+    let megabytes = |bytes: f64| format!("{} MiB", short(bytes / f64::from(1 << 20)));
+    if integration == Integration::Table2d {
+        return format!("{scalars} x {scalars} samples, {}", megabytes(plane));
+    }
+    let spacing = match length_axis {
+        LengthAxis::Linear => "",
+        LengthAxis::Logarithmic => ", logarithmic lengths",
+    };
+    format!("{scalars} x {scalars} x {lengths} samples{spacing}, {}", megabytes(plane * f64::from(lengths)))
+}
