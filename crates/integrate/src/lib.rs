@@ -33,6 +33,7 @@
 //! NaN. Lengths are in the unit whose inverse the extinction has ([`TransferFunction::with_lengths_scaled`] changes it).
 
 mod average;
+mod deviation;
 mod error;
 mod exact;
 mod homogeneous;
@@ -50,6 +51,7 @@ mod transfer;
 pub mod weights;
 
 pub use average::average;
+pub use deviation::{Deviation, deviation};
 pub use error::{MethodError, NameError, TransferFunctionError};
 pub use exact::exact;
 pub use homogeneous::homogeneous;
