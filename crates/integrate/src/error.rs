@@ -101,4 +101,26 @@ pub enum MethodError {
         /// The largest number.
         most: u32,
     },
+    /// What a table has to cover is not possible.
+    #[error("a table over a {what} of {value} is not possible; {expected}")]
+    TableDomain {
+        /// `"lowest scalar"`, `"highest scalar"`, `"range of scalars"`, `"mean length"` or `"longest chord"`.
+        what: &'static str,
+        /// What was given.
+        value: f64,
+        /// What is possible.
+        expected: &'static str,
+    },
+    /// A table does not fit into the memory.
+    #[error("no memory for a table of {bytes} bytes; give fewer samples")]
+    TableMemory {
+        /// Size of its entries.
+        bytes: usize,
+    },
+    /// A method with a table was not told how large it is.
+    #[error("integration \"{integration}\" looks the light up; give the size of its table and what it has to cover")]
+    NoTable {
+        /// The method.
+        integration: Integration,
+    },
 }

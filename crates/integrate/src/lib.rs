@@ -33,6 +33,7 @@
 //! NaN. Lengths are in the unit whose inverse the extinction has ([`TransferFunction::with_lengths_scaled`] changes it).
 
 mod average;
+mod deviation;
 mod error;
 mod exact;
 mod homogeneous;
@@ -44,12 +45,18 @@ mod segment;
 pub mod series;
 mod special;
 pub mod surface;
+mod table_2d;
+mod table_3d;
+mod table_axes;
+mod table_pairs;
 mod table_settings;
 mod thick_vertex;
 mod transfer;
 pub mod weights;
+mod window;
 
 pub use average::average;
+pub use deviation::{Deviation, deviation};
 pub use error::{MethodError, NameError, TransferFunctionError};
 pub use exact::exact;
 pub use homogeneous::homogeneous;
@@ -57,6 +64,10 @@ pub use method::Integration;
 pub use model::OpticalModel;
 pub use segment::{RgbaAssoc, Segment};
 pub use surface::{Isosurface, IsosurfaceError, Isosurfaces, Phong, SurfaceShading};
+pub use table_2d::Table2d;
+pub use table_3d::Table3d;
+pub use table_axes::ScalarAxis;
+pub use table_pairs::SurfaceRole;
 pub use table_settings::{LengthAxis, TableDomain, TableSettings};
 pub use thick_vertex::thick_vertex;
 pub use transfer::{Piece, TransferFunction};
@@ -64,6 +75,8 @@ pub use weights::Weights;
 
 #[cfg(test)]
 mod methods_tests;
+#[cfg(test)]
+mod table_tests;
 
 /// Compiles and runs the README's example.
 #[cfg(doctest)]

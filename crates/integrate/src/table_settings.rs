@@ -21,6 +21,13 @@ pub enum LengthAxis {
     Linear,
     /// As many in every octave, over the ten octaves below the longest chord; evenly from 0 to where those begin.
     ///
+    /// Node 0 is length 0, node 1 is `max / 1024`, the last node is `max`. Between node 1 and the last, the axis is
+    /// even in `exponent + mantissa` of `x = length / max = 2^exponent (1 + mantissa)`, with `mantissa` from 0 to 1.
+    /// That is the logarithm to base 2, made piecewise linear between the powers of two (it differs by up to 0.086),
+    /// and nothing but the bits of a float read as an integer, so that a look-up needs no logarithm.
+    ///
+    /// With two samples it is the linear axis.
+    ///
     /// Source: [Kraus 2004] for a logarithmic axis.
     Logarithmic,
 }
@@ -62,6 +69,33 @@ impl TableSettings {
             if !(Self::LEAST..=Self::MOST).contains(&size) {
                 return Err(MethodError::TableSize { what, size, least: Self::LEAST, most: Self::MOST });
             }
+        }
+        Ok(())
+    }
+}
+
+impl TableDomain {
+    /// Whether a table can cover it.
+    ///
+    /// # Errors
+    /// [`MethodError::TableDomain`].
+    pub fn check(&self) -> Result<(), MethodError> {
+        let refuse = |what, value, expected| Err(MethodError::TableDomain { what, value, expected });
+        let [lo, hi] = self.scalars;
+        for (what, scalar) in [("lowest scalar", lo), ("highest scalar", hi)] {
+            if !scalar.is_finite() {
+                return refuse(what, scalar, "give a finite number");
+            }
+        }
+        let width = hi - lo;
+        if !(0.0..=f64::MAX).contains(&width) {
+            return refuse("range of scalars", width, "give two scalars of which the second is not below the first");
+        }
+        if !(self.mean_length > 0.0 && self.mean_length.is_finite()) {
+            return refuse("mean length", self.mean_length, "give a positive finite length");
+        }
+        if !(self.max_length >= self.mean_length && self.max_length.is_finite()) {
+            return refuse("longest chord", self.max_length, "give a finite length not below the mean");
         }
         Ok(())
     }

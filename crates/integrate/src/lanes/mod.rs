@@ -24,12 +24,14 @@
 
 mod exponential;
 mod split;
+mod table;
 mod thin;
 
 #[cfg(test)]
 mod tests;
 
 pub use exponential::{exp_negative, opacity_transmittance};
+pub use table::TableLight;
 
 use fearless_simd::{Simd, f32x8, prelude::*};
 
