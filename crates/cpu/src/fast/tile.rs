@@ -142,8 +142,8 @@ impl Job<'_> {
             (I::Opacity2d | I::Partial, _) => self.draw_with::<Ends>(index, pixels),
             (I::Table2d, _) => self.draw_as::<Tabulated<false>, DensityEmitter>(index, pixels),
             (I::Table3d, _) => self.draw_as::<Tabulated<true>, DensityEmitter>(index, pixels),
-            (I::Cumulative, O::DensityEmitter) => self.draw_as::<Cumulative, DensityEmitter>(index, pixels),
-            (I::Cumulative, O::Emitter) => self.draw_as::<Cumulative, Emitter>(index, pixels),
+            (I::Cumulative, O::DensityEmitter) => self.draw_as::<Cumulative<false>, DensityEmitter>(index, pixels),
+            (I::Cumulative, O::Emitter) => self.draw_as::<Cumulative<true>, Emitter>(index, pixels),
             (I::Cumulative | I::Exact, _) => self.draw_with::<Exact>(index, pixels),
         }
     }

@@ -3,6 +3,7 @@
 use fearless_simd::{Simd, f32x8, prelude::*};
 
 mod average;
+mod cumulative;
 mod ends;
 mod exact;
 mod partial;
@@ -10,6 +11,7 @@ mod tabulated;
 mod vertex;
 
 pub(crate) use average::Average;
+pub(crate) use cumulative::Cumulative;
 pub(crate) use ends::Ends;
 pub(crate) use exact::Exact;
 pub(crate) use partial::Partial;
