@@ -56,7 +56,10 @@ pub use homogeneous::homogeneous;
 pub use method::Integration;
 pub use model::OpticalModel;
 pub use segment::{RgbaAssoc, Segment};
-pub use surface::{Crossing, Isosurface, IsosurfaceError, Isosurfaces, Phong, SurfaceShading};
+pub use surface::{
+    Crossing, Isosurface, IsosurfaceError, IsosurfaceMap, Isosurfaces, Phong, PhongError, SmoothMaps, SurfaceShading,
+    TexelAxis,
+};
 pub use table_settings::{LengthAxis, TableDomain, TableSettings};
 pub use thick_vertex::thick_vertex;
 pub use transfer::{Piece, TransferFunction};

@@ -23,13 +23,18 @@
 //! Results below the smallest normal number may be 0.
 
 mod exponential;
+mod maps;
+mod phong;
 mod split;
 mod thin;
 
 #[cfg(test)]
+mod surface_tests;
+#[cfg(test)]
 mod tests;
 
 pub use exponential::{exp_negative, opacity_transmittance};
+pub use phong::phong;
 
 use fearless_simd::{Simd, f32x8, prelude::*};
 

@@ -41,7 +41,7 @@ pub struct Isosurfaces {
     surfaces: Vec<Isosurface>,
 }
 
-/// Why isosurfaces cannot be drawn.
+/// Why isosurfaces cannot be drawn, or not by a map.
 #[derive(Clone, Debug, Error, PartialEq)]
 #[non_exhaustive]
 pub enum IsosurfaceError {
@@ -56,6 +56,24 @@ pub enum IsosurfaceError {
         value: f64,
         /// What is possible.
         expected: &'static str,
+    },
+    /// A map's size is out of range.
+    #[error("a map of {size} by {size} texels is not possible; give {least} to {most}")]
+    MapSize {
+        /// Texels a side.
+        size: u32,
+        /// The least number.
+        least: u32,
+        /// The largest number.
+        most: u32,
+    },
+    /// A map cannot cover a range of scalars.
+    #[error("no map covers scalars from {lo} to {hi}; give a range that ascends and whose width is finite")]
+    MapRange {
+        /// Where it begins.
+        lo: f64,
+        /// Where it ends.
+        hi: f64,
     },
 }
 
