@@ -63,7 +63,10 @@ pub use homogeneous::homogeneous;
 pub use method::Integration;
 pub use model::OpticalModel;
 pub use segment::{RgbaAssoc, Segment};
-pub use surface::{Isosurface, IsosurfaceError, Isosurfaces, Phong, SurfaceShading};
+pub use surface::{
+    Crossing, Isosurface, IsosurfaceError, IsosurfaceMap, Isosurfaces, Phong, PhongError, SmoothMaps, SurfaceShading,
+    TexelAxis,
+};
 pub use table_2d::Table2d;
 pub use table_3d::Table3d;
 pub use table_axes::ScalarAxis;

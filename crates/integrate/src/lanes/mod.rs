@@ -23,15 +23,20 @@
 //! Results below the smallest normal number may be 0.
 
 mod exponential;
+mod maps;
+mod phong;
 mod split;
 mod table;
 mod thin;
 
 #[cfg(test)]
+mod surface_tests;
+#[cfg(test)]
 mod tests;
 
 pub use exponential::{exp_negative, opacity_transmittance};
 pub use table::TableLight;
+pub use phong::phong;
 
 use fearless_simd::{Simd, f32x8, prelude::*};
 

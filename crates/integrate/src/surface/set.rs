@@ -4,6 +4,10 @@ use core::ops::Range;
 
 use thiserror::Error;
 
+#[cfg(test)]
+#[path = "set_tests.rs"]
+mod tests;
+
 /// A surface on which the scalar has one value.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Isosurface {
@@ -37,7 +41,7 @@ pub struct Isosurfaces {
     surfaces: Vec<Isosurface>,
 }
 
-/// Why isosurfaces cannot be drawn.
+/// Why isosurfaces cannot be drawn, or not by a map.
 #[derive(Clone, Debug, Error, PartialEq)]
 #[non_exhaustive]
 pub enum IsosurfaceError {
@@ -53,13 +57,32 @@ pub enum IsosurfaceError {
         /// What is possible.
         expected: &'static str,
     },
+    /// A map's size is out of range.
+    #[error("a map of {size} by {size} texels is not possible; give {least} to {most}")]
+    MapSize {
+        /// Texels a side.
+        size: u32,
+        /// The least number.
+        least: u32,
+        /// The largest number.
+        most: u32,
+    },
+    /// A map cannot cover a range of scalars.
+    #[error("no map covers scalars from {lo} to {hi}; give a range that ascends and whose width is finite")]
+    MapRange {
+        /// Where it begins.
+        lo: f64,
+        /// Where it ends.
+        hi: f64,
+    },
 }
 
 impl Isosurfaces {
     /// Sorts surfaces by their value; those of one value stay in the order given.
     ///
     /// # Errors
-    /// [`IsosurfaceError`] for a value that is not finite, a color that is negative or not finite, an opacity outside 0 to 1.
+    /// [`IsosurfaceError`] for a value that is not finite, a color that is negative or not finite, an opacity outside 0
+    /// to 1.
     pub fn new(mut surfaces: Vec<Isosurface>) -> Result<Self, IsosurfaceError> {
         for (index, surface) in surfaces.iter().enumerate() {
             let refuse = |component, value, expected| Err(IsosurfaceError::Value { index, component, value, expected });
@@ -91,8 +114,8 @@ impl Isosurfaces {
 
     /// Number of surfaces whose value is not above a scalar: on which side of each of them it lies.
     ///
-    /// A ray from a scalar of rank `p` to one of rank `q` crosses the surfaces between `p` and `q`, so that along a chain
-    /// of segments every crossing counts once, whatever the scalars at the joints are.
+    /// A ray from a scalar of rank `p` to one of rank `q` crosses the surfaces between `p` and `q`, so that along a
+    /// chain of segments every crossing counts once, whatever the scalars at the joints are.
     #[inline]
     pub fn rank(&self, scalar: f64) -> usize {
         self.surfaces.partition_point(|surface| surface.value <= scalar)
