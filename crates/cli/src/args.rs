@@ -131,7 +131,7 @@ pub(crate) struct RenderArgs {
     /// Number of slabs for --order bucket
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..), help_heading = "Method")]
     pub(crate) slabs: Option<u32>,
-    /// The largest error wanted in a channel, 0 to 1; the methods of today are either exact or do not know their error
+    /// The largest error wanted in a channel, 0 to 1; it changes nothing yet, as auto takes the exact integration
     #[arg(long, value_name = "ERROR", help_heading = "Method")]
     pub(crate) max_error: Option<f64>,
     /// cpu, or reference (64-bit, every ray against every cell: slow)

@@ -3,7 +3,8 @@
 use tetrascope_mesh::rings_sample;
 
 use crate::{
-    Backend, Choice, Error, OpticalModel, OrderMethod, SceneFile, Silent, Volume, render_scene, render_volume,
+    Backend, Choice, Error, IsosurfaceSection, OpticalModel, OrderMethod, SceneFile, Silent, Volume, render_scene,
+    render_volume,
 };
 
 fn small_scene() -> SceneFile {
@@ -71,6 +72,19 @@ fn every_step_is_timed_and_the_scene_is_given_back_complete() {
     let again = render_scene(&picture.completed, ".".as_ref(), &Silent).unwrap();
     assert_eq!(again.image, picture.image);
     assert_eq!(again.warnings, Vec::<String>::new());
+}
+
+#[test]
+fn what_a_scene_asks_in_vain_is_said() {
+    let mut scene = small_scene();
+    scene.isosurface.push(IsosurfaceSection::new(99.0, [1.0; 3]));
+    let picture = render_scene(&scene, ".".as_ref(), &Silent).unwrap();
+    let says = |w: &String| w.contains("isosurface[0].value is 99") && w.contains("not seen");
+    assert!(picture.warnings.iter().any(says), "{:?}", picture.warnings);
+    assert_eq!(picture.plan.isosurfaces.unwrap().surfaces.as_slice().len(), 1);
+    scene.isosurface[0].opacity = -1.0;
+    let text = render_scene(&scene, ".".as_ref(), &Silent).unwrap_err().to_string();
+    assert!(text.contains("isosurface[0].opacity is -1"), "{text}");
 }
 
 #[test]
