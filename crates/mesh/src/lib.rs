@@ -31,6 +31,7 @@
 
 mod adjacency;
 mod check;
+mod chords;
 mod dataset;
 mod decompose;
 mod error;
@@ -43,6 +44,7 @@ mod tet_mesh;
 
 pub use adjacency::{CellFace, FaceAdjacency};
 pub use check::{MeshReport, check};
+pub use chords::{ChordLengths, chord_lengths};
 pub use dataset::{ArrayValues, CellKind, Cells, DataArray, Dataset, StructuredBlock, UnstructuredCells};
 pub use decompose::{AddedPoint, Decomposition, DecompositionCounts, cell_data_to_points, decompose};
 pub use error::MeshError;
