@@ -50,6 +50,7 @@ const CASES: &[Case] = &[
         fast: Some(Fast { within: 5e-4, but_for: 0.09, at_most: 1.5e-2 }),
         leave_out: &[],
     },
+    Case { name: "bluntfin-isosurfaces", reference_within: 1e-5, fast: None, leave_out: &[] },
     // Likewise: 0.1 %.
     Case {
         name: "combustor",

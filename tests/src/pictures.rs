@@ -3,8 +3,8 @@
 use glam::{DQuat, DVec3};
 use tetrascope::mesh::TetMesh;
 use tetrascope::{
-    Backend, Camera, CpuRenderer, Integration, LinearImage, OpticalModel, Plan, Projection, Silent,
-    TransferFunction, View, reference,
+    Backend, Camera, CpuRenderer, Integration, LinearImage, OpticalModel, Plan, Projection, Silent, TransferFunction,
+    View, reference,
 };
 
 use crate::meshes::Random;

@@ -42,13 +42,17 @@ pub enum RenderError {
     )]
     FanWithIsosurfaces,
     /// An integral stops at isosurfaces in a table; this integration has none.
-    #[error("integration \"{integration}\" has no table in which it could stop; use \"table-2d\" or \"table-3d\", or isosurfaces by \"exact\" or \"map-smooth\"")]
+    #[error(
+        "integration \"{integration}\" has no table in which it could stop; use \"table-2d\" or \"table-3d\", or isosurfaces by \"exact\" or \"map-smooth\""
+    )]
     NoTableToStop {
         /// The integration.
         integration: Integration,
     },
     /// Where a shaded isosurface lets light through, the volume in front of it and behind it do not fit one table.
-    #[error("isosurfaces that are shaded and transparent cannot be stopped at in a table; use isosurfaces by \"exact\" or \"map-smooth\"")]
+    #[error(
+        "isosurfaces that are shaded and transparent cannot be stopped at in a table; use isosurfaces by \"exact\" or \"map-smooth\""
+    )]
     StoppedByTransparent,
     /// The operating system gave no threads.
     #[error("{threads} threads could not be started: {problem}; ask for fewer")]

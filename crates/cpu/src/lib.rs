@@ -36,12 +36,16 @@
 //! Limits: cells are blended in one global order, so that the fast renderer is right only where that order is; the
 //! reference keeps all fragments of a tile in memory.
 
+mod domain;
 mod error;
 mod fast;
 mod geometry;
 mod grid;
 pub mod reference;
 mod rendered;
+
+#[cfg(test)]
+mod reference_tests;
 
 pub use error::RenderError;
 pub use fast::CpuRenderer;

@@ -1,15 +1,19 @@
 //! The reference: every pixel's ray against every tetrahedron, in f64, sorted along the ray.
 //!
 //! Nothing is approximated but by rounding: segments come from clipping the ray against the four half-spaces of a cell,
-//! the integral along each is [`tetrascope_integrate::exact`], and the fragments of a pixel are sorted by where the ray
-//! enters, so that no order of whole cells is needed and cycles are drawn rightly. Cells that overlap in space are composed one
-//! after the other, as if the nearer one ended first.
+//! each is cut where it meets an isosurface, what is between is integrated as the plan says, and the fragments of a pixel are
+//! sorted by where the ray enters, so that no order of whole cells is needed and cycles are drawn rightly. Cells that overlap
+//! in space are composed one after the other, as if the nearer one ended first.
+
+mod light;
+mod ray;
+mod surfaces;
 
 use rayon::prelude::*;
 use std::sync::atomic::{AtomicU64, Ordering};
-use tetrascope_integrate::{Integration, OpticalModel, RgbaAssoc, Segment, TransferFunction, average, exact};
+use tetrascope_integrate::{Integration, RgbaAssoc, Segment, average, exact};
 use tetrascope_mesh::TetMesh;
-use tetrascope_scene::{Plan, Progress, Stage};
+use tetrascope_scene::{Gradients, Plan, Progress, Stage};
 use tetrascope_view::LinearImage;
 
 use crate::error::{check_scalars, on_threads};
@@ -17,38 +21,31 @@ use crate::geometry::{ClipCell, PixelBox, PixelSpace, Points, ascending, is_outs
 use crate::grid::{Bins, Tile, TileGrid};
 use crate::rendered::Stopwatch;
 use crate::{Counts, RenderError, Rendered};
+use light::Light;
+use ray::{Fragment, Ray, RayComposer, Surfaces};
 
-/// Pixels a side of a tile: the fragments of all its pixels are in memory at once, 32 bytes each.
+/// Pixels a side of a tile: the fragments of all its pixels are in memory at once, 40 bytes each.
 const TILE_SIDE: u32 = 16;
 
-/// Draws a mesh as the plan says, in f64; the plan's order, back end and termination are ignored.
+/// Draws a mesh as the plan says, in f64.
 ///
 /// - `scalars`: one a point of the mesh
+///
+/// The plan's order, back end and termination are ignored, and so is the method of its isosurfaces: the reference cuts
+/// rays where they meet a surface, which is what maps approximate.
 ///
 /// # Errors
 /// [`RenderError`] if `scalars` does not fit the mesh, holds a value that is not finite where a tetrahedron uses it, or if
 /// the plan's integration is one that is defined on a fan of triangles ([`Integration::Vertex`]) and has no meaning along a ray.
 pub fn render(mesh: &TetMesh, scalars: &[f64], plan: &Plan, progress: &dyn Progress) -> Result<Rendered, RenderError> {
     check_scalars(mesh, scalars)?;
-    let integrate: Integrate = match plan.integration {
-        Integration::Exact => exact,
-        Integration::Average => average,
-        Integration::Vertex => return Err(RenderError::IntegrationNeedsFan),
-        integration => return Err(RenderError::NotBuilt { integration }),
-    };
-    on_threads(plan.threads, || render_here(mesh, scalars, plan, integrate, progress))
+    on_threads(plan.threads, || render_here(mesh, scalars, plan, progress))?
 }
 
-type Integrate = fn(&TransferFunction, OpticalModel, &Segment) -> RgbaAssoc;
+/// The light of a segment without isosurfaces, by the plan's integration.
+type Integrate<'a> = dyn Fn(&Segment) -> RgbaAssoc + Sync + 'a;
 
-/// A cell's segment of one ray; 32 bytes.
-#[derive(Clone, Copy, Debug)]
-struct Fragment {
-    depth: [f64; 2],
-    scalar: [f64; 2],
-}
-
-struct Job {
+struct Job<'a> {
     cells: Vec<[u32; 4]>,
     points: Points,
     space: PixelSpace,
@@ -56,16 +53,28 @@ struct Job {
     bins: Bins,
     /// For every entry of the bins the tetrahedron; only those that can be seen are there.
     seen: Vec<(u32, PixelBox)>,
+    plan: &'a Plan,
+    composer: RayComposer<'a>,
+    fragments: AtomicU64,
 }
 
-fn render_here(
-    mesh: &TetMesh,
-    scalars: &[f64],
-    plan: &Plan,
-    integrate: Integrate,
-    progress: &dyn Progress,
-) -> Rendered {
+fn render_here(mesh: &TetMesh, scalars: &[f64], plan: &Plan, progress: &dyn Progress) -> Result<Rendered, RenderError> {
     let mut watch = Stopwatch::start();
+    let integrate: Box<Integrate> = match plan.integration {
+        Integration::Exact => Box::new(|segment: &Segment| exact(&plan.transfer, plan.model, segment)),
+        Integration::Average => Box::new(|segment: &Segment| average(&plan.transfer, plan.model, segment)),
+        Integration::Vertex => return Err(RenderError::IntegrationNeedsFan),
+        integration => return Err(RenderError::NotBuilt { integration }),
+    };
+    let needed = plan.gradients();
+    let lit = plan.lighting.as_ref().filter(|_| needed != Gradients::None);
+    let composer = RayComposer {
+        integrate,
+        surfaces: plan.isosurfaces.as_ref().map(|isosurfaces| Surfaces::new(&isosurfaces.surfaces, mesh, scalars)),
+        light: lit.map(|lighting| Light::new(lighting, needed, mesh, scalars)),
+    };
+    watch.lap(Stage::Prepare);
+
     let frame = mesh.frame();
     let space = PixelSpace::new(&plan.view.in_frame(frame.origin, frame.scale), frame.scale);
     let mut points = Points::default();
@@ -93,14 +102,13 @@ fn render_here(
     let bins = grid.bin(seen.iter().map(|&(_, outline)| outline), may_show);
     watch.lap(Stage::Bin);
 
-    let job = Job { space, grid, bins, cells, points, seen };
-    let fragments = AtomicU64::new(0);
+    let job = Job { space, grid, bins, cells, points, seen, plan, composer, fragments: AtomicU64::new(0) };
     let done = AtomicU64::new(0);
     let total = grid.len() as u64;
     let tiles: Vec<Vec<[f32; 4]>> = (0..grid.len())
         .into_par_iter()
         .map(|index| {
-            let pixels = job.draw_tile(index, plan, integrate, &fragments);
+            let pixels = job.draw_tile(index);
             progress.report(Stage::Rasterize, done.fetch_add(1, Ordering::Relaxed) + 1, total);
             pixels
         })
@@ -117,13 +125,13 @@ fn render_here(
     watch.lap(Stage::Rasterize);
     let cells = job.cells.len() as u64;
     let drawn = job.seen.len() as u64;
-    let fragments = fragments.into_inner();
+    let fragments = job.fragments.into_inner();
     let counts = Counts { cells, transparent: 0, outside: cells - drawn, drawn, careful: drawn, fragments };
-    Rendered { image, timings: watch.finish(), counts }
+    Ok(Rendered { image, timings: watch.finish(), counts })
 }
 
-impl Job {
-    fn draw_tile(&self, index: usize, plan: &Plan, integrate: Integrate, count: &AtomicU64) -> Vec<[f32; 4]> {
+impl Job<'_> {
+    fn draw_tile(&self, index: usize) -> Vec<[f32; 4]> {
         let tile = self.grid.tile(index);
         let mut pixels: Vec<Vec<Fragment>> = vec![Vec::new(); (tile.width * tile.height) as usize];
         for &item in self.bins.of(index) {
@@ -138,28 +146,35 @@ impl Job {
                     let u = PixelSpace::center(x, self.space.size[0]);
                     if let Some(span) = clip.span(self.space.is_perspective, u, w) {
                         let pixel = (y - tile.y) * tile.width + x - tile.x;
-                        pixels[pixel as usize].push(Fragment { depth: span.depth, scalar: span.scalar });
+                        pixels[pixel as usize].push(Fragment { depth: span.depth, scalar: span.scalar, cell });
                     }
                 }
             }
         }
-        count.fetch_add(pixels.iter().map(|p| p.len() as u64).sum(), Ordering::Relaxed);
+        let mut count = 0;
         let compose = |(pixel, fragments): (usize, &mut Vec<Fragment>)| {
-            let (x, y) = (tile.x + pixel as u32 % tile.width, tile.y + pixel as u32 / tile.width);
-            let (u, w) = (PixelSpace::center(x, self.space.size[0]), PixelSpace::center(y, self.space.size[1]));
-            let stretch = self.space.ray_stretch(u, w);
+            let ray = self.ray(tile.x + pixel as u32 % tile.width, tile.y + pixel as u32 / tile.width);
             fragments.sort_by(|a, b| a.depth[0].total_cmp(&b.depth[0]).then(a.depth[1].total_cmp(&b.depth[1])));
-            let composed = fragments.iter().fold(RgbaAssoc::TRANSPARENT, |front, fragment| {
-                let segment = Segment {
-                    scalar_front: fragment.scalar[0],
-                    scalar_back: fragment.scalar[1],
-                    chord_length: (fragment.depth[1] - fragment.depth[0]) * stretch,
-                };
-                front.over(integrate(&plan.transfer, plan.model, &segment))
-            });
-            let [r, g, b] = composed.rgb;
-            [r as f32, g as f32, b as f32, composed.opacity as f32]
+            let corners = |cell: u32| self.points.corners(self.cells[cell as usize]);
+            let composed = self.composer.compose(&ray, fragments, corners);
+            count += composed.fragments;
+            let [r, g, b] = composed.light.rgb;
+            [r as f32, g as f32, b as f32, composed.light.opacity as f32]
         };
-        pixels.iter_mut().enumerate().map(compose).collect()
+        let colors = pixels.iter_mut().enumerate().map(compose).collect();
+        self.fragments.fetch_add(count, Ordering::Relaxed);
+        colors
+    }
+
+    fn ray(&self, x: u32, y: u32) -> Ray {
+        let (u, w) = (PixelSpace::center(x, self.space.size[0]), PixelSpace::center(y, self.space.size[1]));
+        let direction = self.plan.view.ray(f64::from(x) + 0.5, f64::from(y) + 0.5).direction;
+        Ray {
+            center: [u, w],
+            is_perspective: self.space.is_perspective,
+            stretch: self.space.ray_stretch(u, w),
+            // Not zero: its component along the line of sight is 1.
+            to_eye: -direction / direction.length(),
+        }
     }
 }

@@ -82,14 +82,7 @@ fn careful_lanes<S: Simd>(
     };
     let length = leave - enter;
     let nearness = if space.is_perspective { covered.select(length / (enter * leave), splat(0.0)) } else { length };
-    Some([
-        scalar_at(enter),
-        scalar_at(leave),
-        length.to_f32s(),
-        nearness.to_f32s(),
-        enter.to_f32s(),
-        leave.to_f32s(),
-    ])
+    Some([scalar_at(enter), scalar_at(leave), length.to_f32s(), nearness.to_f32s(), enter.to_f32s(), leave.to_f32s()])
 }
 
 /// Eight numbers in 32 bits.
@@ -137,8 +130,9 @@ pub(crate) fn careful_sample<S: Simd>(
     space: &PixelSpace,
     [x, y]: [u32; 2],
 ) -> Option<Sample<S>> {
-    let [front, back, length, nearness, enter, leave] = careful_lanes(simd, &cell.clip, record.scalar_reference, space, [x, y])?
-        .map(|lane| f32x8::load_array(simd, lane));
+    let [front, back, length, nearness, enter, leave] =
+        careful_lanes(simd, &cell.clip, record.scalar_reference, space, [x, y])?
+            .map(|lane| f32x8::load_array(simd, lane));
     let covered = length.simd_gt(f32x8::splat(simd, 0.0));
     let place = [columns(simd, record, x), rows(simd, record, y)];
     Some(Sample { front, back, length, nearness, depth: [enter, leave], place, covered })

@@ -208,18 +208,17 @@ impl CpuRenderer {
 
         let (fragments, crossings) = (AtomicU64::new(0), AtomicU64::new(0));
         let done = AtomicU64::new(0);
-        let job =
-            tile::Job {
-                records,
-                bins: &bins,
-                grid,
-                space: &space,
-                optics: &optics,
-                plan,
-                lookup: lookup.as_deref(),
-                effects,
-                level: self.level,
-            };
+        let job = tile::Job {
+            records,
+            bins: &bins,
+            grid,
+            space: &space,
+            optics: &optics,
+            plan,
+            lookup: lookup.as_deref(),
+            effects,
+            level: self.level,
+        };
         tiles.resize_with(grid.len(), tile::Pixels::default);
         tiles.par_iter_mut().enumerate().with_max_len(1).for_each(|(index, pixels)| {
             let drawn = job.draw(index, pixels);

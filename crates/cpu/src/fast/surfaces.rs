@@ -35,8 +35,7 @@ pub(crate) struct Joint {
 
 impl Joint {
     /// No cell yet: at no depth.
-    pub(crate) const NONE: Self =
-        Self { depth: [f32::NEG_INFINITY; LANES], slack: [0.0; LANES], rank: [0.0; LANES] };
+    pub(crate) const NONE: Self = Self { depth: [f32::NEG_INFINITY; LANES], slack: [0.0; LANES], rank: [0.0; LANES] };
 
     /// The rank at the front: that of the exit before where the two are one place, else the cell's own. Remembers the exit.
     #[inline(always)]
@@ -244,8 +243,7 @@ impl CellWithEffects<'_> {
         }
         if surface.is_lit {
             let across = sample.back - sample.front;
-            let share = (f32x8::splat(simd, surface.value) - sample.front)
-                / across.simd_eq(zero).select(one, across);
+            let share = (f32x8::splat(simd, surface.value) - sample.front) / across.simd_eq(zero).select(one, across);
             let share = share.max(0.0).min(1.0);
             let depth = share.mul_add(sample.depth[1] - sample.depth[0], sample.depth[0]);
             if let Some([body, highlight]) = self.intensities(simd, rays, depth) {

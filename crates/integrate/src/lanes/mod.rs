@@ -35,8 +35,8 @@ mod surface_tests;
 mod tests;
 
 pub use exponential::{exp_negative, opacity_transmittance};
-pub use table::TableLight;
 pub use phong::phong;
+pub use table::TableLight;
 
 use fearless_simd::{Simd, f32x8, prelude::*};
 

@@ -3,8 +3,8 @@
 use glam::DVec3;
 
 use super::*;
-use crate::CellId;
-use crate::{Dataset, decompose, rings_sample};
+
+use crate::{CellId, Dataset, decompose, rings_sample};
 
 fn mesh_of(dataset: &Dataset) -> TetMesh {
     decompose(dataset).expect("the sample is good").mesh

@@ -51,13 +51,7 @@ impl<const PER_LENGTH: bool> Method for Cumulative<PER_LENGTH> {
 
 /// The part of a segment between two scalars of a piece.
 #[inline(always)]
-fn part<S: Simd>(
-    simd: S,
-    piece: &LocalPiece,
-    from: f32x8<S>,
-    to: f32x8<S>,
-    length: f32x8<S>,
-) -> Part<S> {
+fn part<S: Simd>(simd: S, piece: &LocalPiece, from: f32x8<S>, to: f32x8<S>, length: f32x8<S>) -> Part<S> {
     let (extinction_from, color_from) = value(simd, piece, from);
     let (extinction_to, color_to) = value(simd, piece, to);
     Part { extinction: [extinction_from, extinction_to], color: [color_from, color_to], length }
