@@ -33,6 +33,9 @@ pub enum RenderError {
         /// The integration.
         integration: tetrascope_integrate::Integration,
     },
+    /// The integration cannot be used as the plan asks for it.
+    #[error(transparent)]
+    Method(#[from] tetrascope_integrate::MethodError),
     /// The operating system gave no threads.
     #[error("{threads} threads could not be started: {problem}; ask for fewer")]
     Threads {

@@ -31,6 +31,8 @@ pub struct Counts {
     pub careful: u64,
     /// Pairs of a pixel and a tetrahedron whose chord was integrated.
     pub fragments: u64,
+    /// Times that one of these met an isosurface that was drawn.
+    pub crossings: u64,
 }
 
 /// Measures stages one after another.
