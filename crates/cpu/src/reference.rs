@@ -7,15 +7,15 @@
 
 mod light;
 mod ray;
-mod surfaces;
 
 use rayon::prelude::*;
 use std::sync::atomic::{AtomicU64, Ordering};
-use tetrascope_integrate::{Integration, RgbaAssoc, Segment, average, exact};
+use tetrascope_integrate::{Integrator, TableDomain};
 use tetrascope_mesh::TetMesh;
 use tetrascope_scene::{Gradients, Plan, Progress, Stage};
 use tetrascope_view::LinearImage;
 
+use crate::domain::table_domain;
 use crate::error::{check_scalars, on_threads};
 use crate::geometry::{ClipCell, PixelBox, PixelSpace, Points, ascending, is_outside_rectangle};
 use crate::grid::{Bins, Tile, TileGrid};
@@ -36,14 +36,17 @@ const TILE_SIDE: u32 = 16;
 ///
 /// # Errors
 /// [`RenderError`] if `scalars` does not fit the mesh, holds a value that is not finite where a tetrahedron uses it, or if
-/// the plan's integration is one that is defined on a fan of triangles ([`Integration::Vertex`]) and has no meaning along a ray.
+/// the plan's integration has no meaning with its optical model, is out of range in the size of its table, or is the one that is
+/// defined on a fan of triangles ([`Integration::Vertex`]) and has no meaning along a ray.
+///
+/// [`Integration::Vertex`]: tetrascope_integrate::Integration::Vertex
 pub fn render(mesh: &TetMesh, scalars: &[f64], plan: &Plan, progress: &dyn Progress) -> Result<Rendered, RenderError> {
     check_scalars(mesh, scalars)?;
     on_threads(plan.threads, || render_here(mesh, scalars, plan, progress))?
 }
 
-/// The light of a segment without isosurfaces, by the plan's integration.
-type Integrate<'a> = dyn Fn(&Segment) -> RgbaAssoc + Sync + 'a;
+/// What a table covers where there is no segment.
+const NOTHING: TableDomain = TableDomain { scalars: [0.0; 2], mean_length: 1.0, max_length: 1.0 };
 
 struct Job<'a> {
     cells: Vec<[u32; 4]>,
@@ -56,20 +59,28 @@ struct Job<'a> {
     plan: &'a Plan,
     composer: RayComposer<'a>,
     fragments: AtomicU64,
+    crossings: AtomicU64,
 }
 
 fn render_here(mesh: &TetMesh, scalars: &[f64], plan: &Plan, progress: &dyn Progress) -> Result<Rendered, RenderError> {
     let mut watch = Stopwatch::start();
-    let integrate: Box<Integrate> = match plan.integration {
-        Integration::Exact => Box::new(|segment: &Segment| exact(&plan.transfer, plan.model, segment)),
-        Integration::Average => Box::new(|segment: &Segment| average(&plan.transfer, plan.model, segment)),
-        Integration::Vertex => return Err(RenderError::IntegrationNeedsFan),
-        integration => return Err(RenderError::NotBuilt { integration }),
+    if plan.integration.needs_fan() {
+        return Err(RenderError::IntegrationNeedsFan);
+    }
+    let domain = if plan.integration.needs_table() {
+        // Only a mesh without volume has none: nothing is looked up in it, whatever the table covers.
+        Some(table_domain(mesh, scalars).unwrap_or(NOTHING))
+    } else {
+        None
     };
+    let settings = plan.table_settings();
+    let tell = |done, total| progress.report(Stage::Prepare, done, total);
+    let integrator =
+        Integrator::new(plan.integration, &plan.transfer, plan.model, settings.as_ref().zip(domain.as_ref()), &tell)?;
     let needed = plan.gradients();
     let lit = plan.lighting.as_ref().filter(|_| needed != Gradients::None);
     let composer = RayComposer {
-        integrate,
+        integrator,
         surfaces: plan.isosurfaces.as_ref().map(|isosurfaces| Surfaces::new(&isosurfaces.surfaces, mesh, scalars)),
         light: lit.map(|lighting| Light::new(lighting, needed, mesh, scalars)),
     };
@@ -102,7 +113,18 @@ fn render_here(mesh: &TetMesh, scalars: &[f64], plan: &Plan, progress: &dyn Prog
     let bins = grid.bin(seen.iter().map(|&(_, outline)| outline), may_show);
     watch.lap(Stage::Bin);
 
-    let job = Job { space, grid, bins, cells, points, seen, plan, composer, fragments: AtomicU64::new(0) };
+    let job = Job {
+        space,
+        grid,
+        bins,
+        cells,
+        points,
+        seen,
+        plan,
+        composer,
+        fragments: AtomicU64::new(0),
+        crossings: AtomicU64::new(0),
+    };
     let done = AtomicU64::new(0);
     let total = grid.len() as u64;
     let tiles: Vec<Vec<[f32; 4]>> = (0..grid.len())
@@ -125,8 +147,8 @@ fn render_here(mesh: &TetMesh, scalars: &[f64], plan: &Plan, progress: &dyn Prog
     watch.lap(Stage::Rasterize);
     let cells = job.cells.len() as u64;
     let drawn = job.seen.len() as u64;
-    let fragments = job.fragments.into_inner();
-    let counts = Counts { cells, transparent: 0, outside: cells - drawn, drawn, careful: drawn, fragments };
+    let (fragments, crossings) = (job.fragments.into_inner(), job.crossings.into_inner());
+    let counts = Counts { cells, transparent: 0, outside: cells - drawn, drawn, careful: drawn, fragments, crossings };
     Ok(Rendered { image, timings: watch.finish(), counts })
 }
 
@@ -151,18 +173,20 @@ impl Job<'_> {
                 }
             }
         }
-        let mut count = 0;
+        let (mut fragments_drawn, mut crossings) = (0, 0);
         let compose = |(pixel, fragments): (usize, &mut Vec<Fragment>)| {
             let ray = self.ray(tile.x + pixel as u32 % tile.width, tile.y + pixel as u32 / tile.width);
             fragments.sort_by(|a, b| a.depth[0].total_cmp(&b.depth[0]).then(a.depth[1].total_cmp(&b.depth[1])));
             let corners = |cell: u32| self.points.corners(self.cells[cell as usize]);
             let composed = self.composer.compose(&ray, fragments, corners);
-            count += composed.fragments;
+            fragments_drawn += composed.fragments;
+            crossings += composed.crossings;
             let [r, g, b] = composed.light.rgb;
             [r as f32, g as f32, b as f32, composed.light.opacity as f32]
         };
         let colors = pixels.iter_mut().enumerate().map(compose).collect();
-        self.fragments.fetch_add(count, Ordering::Relaxed);
+        self.fragments.fetch_add(fragments_drawn, Ordering::Relaxed);
+        self.crossings.fetch_add(crossings, Ordering::Relaxed);
         colors
     }
 

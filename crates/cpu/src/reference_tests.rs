@@ -363,6 +363,48 @@ fn maps_are_not_looked_at() {
     }
 }
 
+/// Homogeneous volume: every method that covers the model has the light of the exact one, within what a table interpolates.
+#[test]
+fn every_integration_along_a_ray_is_drawn() {
+    let cube = cube(3, 0.5, |p| p.z + 0.3 * p.x);
+    let view = on_the_grid(3, 0.5, DVec3::Z);
+    for model in OpticalModel::ALL {
+        let mut plan = plan_of(view, 0.7, model, &[surface(0.8, 0.5)]);
+        let exact = draw(&cube, &plan);
+        for integration in Integration::ALL {
+            if integration.needs_fan() {
+                continue;
+            }
+            plan.integration = integration;
+            let drawn = reference::render(&cube.0, &cube.1, &plan, &Silent);
+            if !integration.covers(model) {
+                assert!(matches!(drawn, Err(RenderError::Method(_))), "{integration} {model}");
+                continue;
+            }
+            let drawn = drawn.unwrap();
+            assert!(drawn.counts.crossings > 30, "{integration} {model}: {:?}", drawn.counts);
+            // A two-dimensional table takes opacity as proportional to length, which no homogeneous volume has: a loose bound.
+            let within = if integration == Integration::Table2d { 0.1 } else { 2e-4 };
+            for (a, b) in drawn.image.pixels().iter().flatten().zip(exact.pixels().iter().flatten()) {
+                assert!((a - b).abs() < within, "{integration} {model}: {a}, exactly {b}");
+            }
+        }
+    }
+}
+
+/// A mesh of which nothing is left has nothing to look up.
+#[test]
+fn nothing_is_drawn_of_an_empty_mesh() {
+    let (mesh, scalars) = cube(1, 1.0, |p| p.z);
+    let empty = mesh.retain(|_| false);
+    for integration in [Integration::Exact, Integration::Table2d, Integration::Table3d] {
+        let mut plan = plan_of(on_the_grid(1, 1.0, DVec3::Z), 1.0, OpticalModel::Emitter, &[surface(0.3, 0.5)]);
+        plan.integration = integration;
+        let drawn = reference::render(&empty, &scalars, &plan, &Silent).unwrap();
+        assert!(drawn.image.pixels().iter().flatten().all(|channel| *channel == 0.0), "{integration}");
+    }
+}
+
 #[test]
 fn vertex_is_refused() {
     let (mesh, scalars) = cube(1, 1.0, |p| p.z);

@@ -2,10 +2,9 @@
 
 use glam::DVec3;
 use tetrascope_integrate::SurfaceShading;
+use tetrascope_integrate::surface::Crossing;
 use tetrascope_mesh::{CellId, TetMesh, vertex_gradients};
 use tetrascope_scene::{Gradients, Lighting};
-
-use super::surfaces;
 
 /// The light in a mesh with a field.
 ///
@@ -30,35 +29,34 @@ impl<'a> Light<'a> {
         self.lighting.volume
     }
 
-    /// What a surface of a color shows.
+    /// What a surface shows where a ray crosses it.
     ///
     /// - `corners`, `point`: of the cell, and where the ray meets the surface in it; in pixel space
     pub(super) fn shade(
         &self,
-        shading: SurfaceShading,
-        color: [f64; 3],
+        crossing: &Crossing<'_>,
         cell: u32,
         corners: &[DVec3; 4],
         point: DVec3,
         to_eye: DVec3,
     ) -> [f64; 3] {
-        let gradient = match shading {
-            SurfaceShading::None => return color,
+        let gradient = match crossing.surface.shading {
+            SurfaceShading::None => return crossing.color,
             SurfaceShading::Flat => self.gradient_of(cell),
             SurfaceShading::Smooth => self.gradient_at(cell, corners, point),
         };
-        surfaces::shade(&self.lighting.phong, color, gradient, to_eye, self.to_light(to_eye))
+        self.lighting.phong.shade(crossing.color, gradient.into(), to_eye.into(), self.to_light(to_eye))
     }
 
     /// How much of its light the volume shows at a point, the highlight included.
     pub(super) fn intensity(&self, cell: u32, corners: &[DVec3; 4], point: DVec3, to_eye: DVec3) -> f64 {
         let gradient = self.gradient_at(cell, corners, point);
-        let [body, highlight] = surfaces::intensities(&self.lighting.phong, gradient, to_eye, self.to_light(to_eye));
+        let [body, highlight] = self.lighting.phong.intensities(gradient.into(), to_eye.into(), self.to_light(to_eye));
         body + highlight
     }
 
-    fn to_light(&self, to_eye: DVec3) -> DVec3 {
-        self.lighting.direction.unwrap_or(to_eye)
+    fn to_light(&self, to_eye: DVec3) -> [f64; 3] {
+        self.lighting.direction.unwrap_or(to_eye).into()
     }
 
     /// The direction of a cell's constant gradient, of no particular length; zero where the scalar is constant.
@@ -76,12 +74,11 @@ impl<'a> Light<'a> {
         b.cross(c) * da + c.cross(a) * db + a.cross(b) * dc
     }
 
-    /// The points' gradients, interpolated; zero where f64 cannot hold them.
+    /// The points' gradients, interpolated.
     fn gradient_at(&self, cell: u32, corners: &[DVec3; 4], point: DVec3) -> DVec3 {
         let gradients = self.mesh.tetrahedra()[cell as usize].map(|v| self.gradients[v.index()]);
         let shares = shares(corners, point);
-        let gradient: DVec3 = gradients.iter().zip(shares).map(|(&gradient, share)| gradient * share).sum();
-        if gradient.is_finite() { gradient } else { DVec3::ZERO }
+        gradients.iter().zip(shares).map(|(&gradient, share)| gradient * share).sum()
     }
 }
 

@@ -1,12 +1,10 @@
 //! What one ray shows: the volume of its fragments and the isosurfaces in them, front to back.
 
 use glam::DVec3;
-use tetrascope_integrate::{Isosurfaces, RgbaAssoc, Segment};
+use tetrascope_integrate::{Integrator, Isosurfaces, RgbaAssoc, Segment};
 use tetrascope_mesh::TetMesh;
 
-use super::Integrate;
 use super::light::Light;
-use super::surfaces;
 use crate::domain::scalar_range;
 
 /// A cell's segment of one ray; 40 bytes.
@@ -33,7 +31,7 @@ pub(super) struct Ray {
 
 /// Everything that fragments become light with.
 pub(super) struct RayComposer<'a> {
-    pub(super) integrate: Box<Integrate<'a>>,
+    pub(super) integrator: Integrator,
     pub(super) surfaces: Option<Surfaces<'a>>,
     pub(super) light: Option<Light<'a>>,
 }
@@ -81,6 +79,8 @@ pub(super) struct Composed {
     pub(super) light: RgbaAssoc,
     /// Fragments that were integrated.
     pub(super) fragments: u64,
+    /// Surfaces that they met, each time.
+    pub(super) crossings: u64,
 }
 
 impl RayComposer<'_> {
@@ -90,7 +90,7 @@ impl RayComposer<'_> {
     pub(super) fn compose(&self, ray: &Ray, fragments: &[Fragment], corners: impl Fn(u32) -> [DVec3; 4]) -> Composed {
         let farthest = fragments.iter().fold(0.0_f64, |farthest, fragment| farthest.max(fragment.depth[1]));
         let mut reached: Option<Reached> = None;
-        let mut composed = Composed { light: RgbaAssoc::TRANSPARENT, fragments: 0 };
+        let mut composed = Composed { light: RgbaAssoc::TRANSPARENT, fragments: 0, crossings: 0 };
         for fragment in fragments {
             let segment = Segment {
                 scalar_front: fragment.scalar[0],
@@ -110,7 +110,7 @@ impl RayComposer<'_> {
                     if reached.as_ref().is_none_or(|last| fragment.depth[1] > last.depth) {
                         reached = Some(Reached { depth: fragment.depth[1], rank: ranks[1] });
                     }
-                    self.cut(surfaces, ranks, ray, fragment, &segment, &corners)
+                    self.cut(surfaces, ranks, ray, fragment, &segment, &corners, &mut composed.crossings)
                 }
             };
             composed.light = composed.light.over(light);
@@ -123,7 +123,8 @@ impl RayComposer<'_> {
         composed
     }
 
-    /// The light of a fragment that isosurfaces may cut.
+    /// The light of a fragment that isosurfaces may cut; the cuts are counted.
+    #[expect(clippy::too_many_arguments, reason = "what belongs to a fragment is known only one call above")]
     fn cut(
         &self,
         surfaces: &Surfaces,
@@ -132,21 +133,14 @@ impl RayComposer<'_> {
         fragment: &Fragment,
         segment: &Segment,
         corners: &impl Fn(u32) -> [DVec3; 4],
+        crossings: &mut u64,
     ) -> RgbaAssoc {
         let volume_light = |part: &Segment| self.volume(ray, fragment, part, corners);
-        surfaces::compose(surfaces.set, ranks, segment, volume_light, |crossing| match &self.light {
-            None => crossing.color,
-            Some(light) => {
-                let point = ray.point(fragment, crossing.share);
-                light.shade(
-                    crossing.surface.shading,
-                    crossing.color,
-                    fragment.cell,
-                    &corners(fragment.cell),
-                    point,
-                    ray.to_eye,
-                )
-            }
+        surfaces.set.compose(ranks, segment, volume_light, |crossing| {
+            *crossings += 1;
+            let Some(light) = &self.light else { return crossing.color };
+            let point = ray.point(fragment, crossing.share);
+            light.shade(crossing, fragment.cell, &corners(fragment.cell), point, ray.to_eye)
         })
     }
 
@@ -158,7 +152,7 @@ impl RayComposer<'_> {
         part: &Segment,
         corners: &impl Fn(u32) -> [DVec3; 4],
     ) -> RgbaAssoc {
-        let light = (self.integrate)(part);
+        let light = self.integrator.integrate(part);
         let Some(source) = self.light.as_ref().filter(|source| source.lights_volume()) else { return light };
         let middle = ray.point(fragment, 0.5);
         let intensity = source.intensity(fragment.cell, &corners(fragment.cell), middle, ray.to_eye);
@@ -178,15 +172,17 @@ impl Ray {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use tetrascope_integrate::{Isosurface, SurfaceShading};
+    use tetrascope_integrate::{Integration, Isosurface, OpticalModel, SurfaceShading, TransferFunction};
 
     /// Opacity of fragments given by depths and scalars, with one surface of half opacity.
     fn opacity(value: f64, fragments: &[([f64; 2], [f64; 2])]) -> f64 {
         let surface =
             Isosurface { value, color: [1.0; 3], back_color: [0.5; 3], opacity: 0.5, shading: SurfaceShading::None };
         let set = Isosurfaces::new(vec![surface]).unwrap();
+        let transfer = TransferFunction::new(&[[0.0; 4]], &[[0.0; 2]]).unwrap();
         let composer = RayComposer {
-            integrate: Box::new(|_| RgbaAssoc::TRANSPARENT),
+            integrator: Integrator::new(Integration::Exact, &transfer, OpticalModel::Absorption, None, &|_, _| ())
+                .unwrap(),
             surfaces: Some(Surfaces { set: &set, slack: 0.0 }),
             light: None,
         };
