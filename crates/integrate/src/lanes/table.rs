@@ -29,8 +29,10 @@ impl Table3d {
     ///   nearer end
     /// - `length`: in the unit of the table's domain; beyond the longest chord taken as that one
     ///
-    /// The error against the 64-bit look-up at the same coordinates stays below 1e-6 of the largest entry around. A NaN
-    /// gives some number or NaN in its lane.
+    /// The error against the 64-bit look-up at the same coordinates stays below 1e-6 of the largest entry around, with
+    /// up to 33 lengths (measured 3.5e-7). The place of a length is rounded to about 1e-7 of its axis, which costs more
+    /// where there are more lengths and light changes much from one to the next. A NaN gives some number or NaN in its
+    /// lane.
     #[inline(always)]
     pub fn look_up_lanes<S: Simd>(&self, simd: S, front: f32x8<S>, back: f32x8<S>, length: f32x8<S>) -> TableLight<S> {
         let scalars = self.settings().scalars;
@@ -51,7 +53,9 @@ impl Table3d {
             let far = both_backs(simd, &corners[n * n..], n, backs[lane]);
             store(&mut light, lane, mixed_fronts(mixed(near, far, lengths[lane]), fronts[lane]));
         }
-        channels(simd, &light)
+        let TableLight { rgb, opacity } = channels(simd, &light);
+        // Mixing two entries of 1 may round up.
+        TableLight { rgb, opacity: opacity.min(1.0) }
     }
 
     /// Where lengths lie on their axis.
