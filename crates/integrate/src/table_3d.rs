@@ -50,6 +50,9 @@ use crate::{
 /// logarithmic axis is coarser near the longest chord for that. Segments whose ends lie close together see only the
 /// diagonal of the table, where a peak between two samples is missed at its full height: finer cells make it worse.
 ///
+/// In a table with surfaces the light jumps where an end passes a surface, and the look-up smears the jump over the
+/// distance of two samples.
+///
 /// Source: [Röttger 2000], section 3.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Table3d {

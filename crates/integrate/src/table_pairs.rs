@@ -117,7 +117,7 @@ pub(crate) fn entry(light: RgbaAssoc) -> [f32; 4] {
     [red, green, blue, light.opacity].map(|value| (value as f32).min(f32::MAX))
 }
 
-/// The light that a weighted sum of entries is.
+/// The light that a weighted sum of entries is; the weights are not negative and add up to 1.
 pub(crate) fn weighted(entries: &[[f32; 4]], weights: impl Iterator<Item = (usize, f64)>) -> RgbaAssoc {
     let mut sum = [0.0; 4];
     for (index, weight) in weights {
@@ -125,5 +125,6 @@ pub(crate) fn weighted(entries: &[[f32; 4]], weights: impl Iterator<Item = (usiz
             *sum += weight * f64::from(value);
         }
     }
-    RgbaAssoc { rgb: [sum[0], sum[1], sum[2]], opacity: sum[3] }
+    // The weights may round to a little more than 1.
+    RgbaAssoc { rgb: [sum[0], sum[1], sum[2]], opacity: sum[3].clamp(0.0, 1.0) }
 }

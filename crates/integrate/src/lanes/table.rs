@@ -5,7 +5,7 @@
 //! eight floats in use, and the halves of the result along the front scalar at last. Then the eight lanes' entries are
 //! turned into a vector for each channel. Wide gathers would fetch 32 single floats a lane instead.
 
-use fearless_simd::{Simd, f32x4, f32x8, i32x8, prelude::*};
+use fearless_simd::{Simd, f32x4, f32x8, i32x8, prelude::*, u32x8};
 
 use crate::{LengthAxis, Table2d, Table3d};
 
@@ -29,8 +29,10 @@ impl Table3d {
     ///   nearer end
     /// - `length`: in the unit of the table's domain; beyond the longest chord taken as that one
     ///
-    /// The error against the 64-bit look-up at the same coordinates stays below 1e-6 of the largest entry around. A NaN
-    /// gives some number or NaN in its lane.
+    /// The error against the 64-bit look-up at the same coordinates stays below 1e-6 of the largest entry around, with
+    /// up to 33 lengths (measured 3.5e-7). The place of a length is rounded to about 1e-7 of its axis, which costs more
+    /// where there are more lengths and light changes much from one to the next. A NaN gives some number or NaN in its
+    /// lane.
     #[inline(always)]
     pub fn look_up_lanes<S: Simd>(&self, simd: S, front: f32x8<S>, back: f32x8<S>, length: f32x8<S>) -> TableLight<S> {
         let scalars = self.settings().scalars;
@@ -38,17 +40,22 @@ impl Table3d {
         let (front, back) = (Cells::new(simd, front, scalars), Cells::new(simd, back, scalars));
         let nodes = Cells::new(simd, self.length_coordinate(simd, length), self.settings().lengths);
         let size = scalars as i32;
-        let first: [i32; 8] = ((nodes.below * size + back.below) * size + front.below).into();
+        let first: [u32; 8] = ((nodes.below * size + back.below) * size + front.below).bitcast::<u32x8<S>>().into();
         let [fronts, backs, lengths]: [[f32; 8]; 3] = [front.share.into(), back.share.into(), nodes.share.into()];
 
         let entries = self.entries();
         let mut light = [0.0; 32];
         for lane in 0..8 {
-            let near = both_backs(simd, entries, first[lane] as usize, n, backs[lane]);
-            let far = both_backs(simd, entries, first[lane] as usize + n * n, n, backs[lane]);
+            let first = first[lane] as usize;
+            // All eight corners, so that their bounds are checked once.
+            let corners = &entries[first..first + n * n + n + 2];
+            let near = both_backs(simd, corners, n, backs[lane]);
+            let far = both_backs(simd, &corners[n * n..], n, backs[lane]);
             store(&mut light, lane, mixed_fronts(mixed(near, far, lengths[lane]), fronts[lane]));
         }
-        channels(simd, &light)
+        let TableLight { rgb, opacity } = channels(simd, &light);
+        // Mixing two entries of 1 may round up.
+        TableLight { rgb, opacity: opacity.min(1.0) }
     }
 
     /// Where lengths lie on their axis.
@@ -88,14 +95,16 @@ impl Table2d {
     #[inline(always)]
     pub fn look_up_lanes<S: Simd>(&self, simd: S, front: f32x8<S>, back: f32x8<S>, length: f32x8<S>) -> TableLight<S> {
         let scalars = self.scalars();
+        let n = scalars as usize;
         let (front, back) = (Cells::new(simd, front, scalars), Cells::new(simd, back, scalars));
-        let first: [i32; 8] = (back.below * scalars as i32 + front.below).into();
+        let first: [u32; 8] = (back.below * scalars as i32 + front.below).bitcast::<u32x8<S>>().into();
         let [fronts, backs]: [[f32; 8]; 2] = [front.share.into(), back.share.into()];
 
         let entries = self.entries();
         let mut light = [0.0; 32];
         for lane in 0..8 {
-            let both = both_backs(simd, entries, first[lane] as usize, scalars as usize, backs[lane]);
+            let first = first[lane] as usize;
+            let both = both_backs(simd, &entries[first..first + n + 2], n, backs[lane]);
             store(&mut light, lane, mixed_fronts(both, fronts[lane]));
         }
         let TableLight { rgb, opacity } = channels(simd, &light);
@@ -131,11 +140,12 @@ impl<S: Simd> Cells<S> {
     }
 }
 
-/// The entries from `first` on for two fronts, mixed between the row of that back and the next.
+/// The first two entries, mixed with the two a row further.
 #[inline(always)]
-fn both_backs<S: Simd>(simd: S, entries: &[[f32; 4]], first: usize, row: usize, share: f32) -> f32x8<S> {
-    let fronts = |index: usize| f32x8::from_slice(simd, entries[index..index + 2].as_flattened());
-    mixed(fronts(first), fronts(first + row), share)
+fn both_backs<S: Simd>(simd: S, corners: &[[f32; 4]], row: usize, share: f32) -> f32x8<S> {
+    let lower = f32x8::from_slice(simd, corners[..2].as_flattened());
+    let upper = f32x8::from_slice(simd, corners[row..row + 2].as_flattened());
+    mixed(lower, upper, share)
 }
 
 #[inline(always)]
