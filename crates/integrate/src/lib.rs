@@ -71,6 +71,8 @@ pub use transfer::{Piece, TransferFunction};
 pub use weights::Weights;
 
 #[cfg(test)]
+mod every_method_tests;
+#[cfg(test)]
 mod methods_tests;
 
 /// Compiles and runs the README's example.
