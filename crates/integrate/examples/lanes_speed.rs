@@ -8,7 +8,9 @@ use std::hint::black_box;
 use std::time::Instant;
 
 use fearless_simd::{Level, Simd, dispatch, f32x8, prelude::*};
-use tetrascope_integrate::lanes::{density_emitter_weights, emitter_weights, exp_negative, opacity_transmittance};
+use tetrascope_integrate::lanes::{
+    density_emitter_weights, emitter_weights, exp_negative, opacity_transmittance, partial_weights,
+};
 
 /// Fit the first-level cache, so that only arithmetic counts.
 const VALUES: usize = 2048;
@@ -46,6 +48,12 @@ fn print_level(level: Level) {
         print_time("density_emitter_weights", || {
             dispatch!(level, simd => run(simd, &front, &back, #[inline(always)] |simd, a, b| {
                 let weights = density_emitter_weights(simd, a, b);
+                weights.front.mul_sub(weights.transmittance, weights.back)
+            }))
+        });
+        print_time("partial_weights", || {
+            dispatch!(level, simd => run(simd, &front, &back, #[inline(always)] |simd, a, b| {
+                let weights = partial_weights(simd, a, b);
                 weights.front.mul_sub(weights.transmittance, weights.back)
             }))
         });

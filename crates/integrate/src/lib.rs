@@ -7,8 +7,9 @@
 //!
 //! [`exact`] cuts a segment where its scalar crosses a control point; on each of the pieces color and extinction are
 //! linear, and the integral has a closed form: the two ends count with [`weights`] that depend on nothing but the
-//! optical depths there. [`average`] and [`thick_vertex`] are the approximations of the literature. All of that is in 64
-//! bits; [`lanes`] has the weights for eight rays at once in 32 bits, for renderers.
+//! optical depths there. [`average`], [`thick_vertex`], [`opacity_2d`] and [`partial`] are the approximations of the
+//! literature, [`RunningIntegrals`] has the opacity of [`exact`] at one cost for any transfer function. All of that is in
+//! 64 bits; [`lanes`] has the weights for eight rays at once in 32 bits, for renderers.
 //!
 //! ```
 //! use tetrascope_integrate::{OpticalModel, Segment, TransferFunction, average, exact};
@@ -28,7 +29,7 @@
 //!
 //! # Limits
 //!
-//! The crate knows no mesh and no pixel; isosurfaces, light sources and scattering are not here. Extinction has one
+//! The crate knows no mesh and no pixel; scattering is not here. Extinction has one
 //! value for all colors. Scalars and lengths are finite: a NaN scalar takes the first piece's values, a NaN length gives
 //! NaN. Lengths are in the unit whose inverse the extinction has ([`TransferFunction::with_lengths_scaled`] changes it).
 
@@ -41,7 +42,11 @@ mod integrator;
 pub mod lanes;
 mod method;
 mod model;
+mod opacity_2d;
+mod psi_table;
+mod range_fold;
 mod range_max;
+mod running_integrals;
 mod segment;
 pub mod series;
 mod special;
@@ -64,6 +69,9 @@ pub use homogeneous::homogeneous;
 pub use integrator::Integrator;
 pub use method::Integration;
 pub use model::OpticalModel;
+pub use opacity_2d::{OpacityTable, opacity_2d};
+pub use psi_table::{PsiTable, partial};
+pub use running_integrals::RunningIntegrals;
 pub use segment::{RgbaAssoc, Segment};
 pub use surface::{
     Crossing, Isosurface, IsosurfaceError, IsosurfaceMap, Isosurfaces, Phong, PhongError, SmoothMaps, SurfaceShading,
@@ -78,6 +86,8 @@ pub use thick_vertex::thick_vertex;
 pub use transfer::{Piece, TransferFunction};
 pub use weights::Weights;
 
+#[cfg(test)]
+mod every_method_tests;
 #[cfg(test)]
 mod methods_tests;
 #[cfg(test)]

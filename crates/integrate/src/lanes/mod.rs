@@ -16,15 +16,19 @@
 //! | [`opacity_transmittance`] | the opacity | 3e-7 | 1.1e-7 | 1.3e-7 |
 //! | [`density_emitter_weights`] | the opacity | 3e-7 | 1.3e-7 | 1.3e-7 |
 //! | [`emitter_weights`] | their sum | 3e-7 | 2.4e-7 | 2.4e-7 |
+//! | [`partial_weights`] | the opacity | 6e-4 | 5.0e-4 | 5.0e-4 |
+//! | [`cumulative`], against 64 bits | the opacity, the length | 4e-6 | 7.4e-7 | 7.4e-7 |
 //!
 //! Transmittances of the weights are good to 3e-7 of 1, and from an optical depth of 1 on to a few units in the last
 //! place. A lane with an optical depth up to 1 gives the same bits whatever its neighbors hold.
 //!
 //! Results below the smallest normal number may be 0.
 
+pub mod cumulative;
 mod exponential;
 mod maps;
 mod phong;
+mod partial;
 mod split;
 mod table;
 mod thin;
@@ -37,6 +41,7 @@ mod tests;
 pub use exponential::{exp_negative, opacity_transmittance};
 pub use phong::phong;
 pub use table::TableLight;
+pub use partial::partial_weights;
 
 use fearless_simd::{Simd, f32x8, prelude::*};
 
