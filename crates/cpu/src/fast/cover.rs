@@ -94,18 +94,23 @@ impl CoverList {
         }
     }
 
-    /// Gives every listed block's number and sample.
+    /// Number of listed blocks.
     #[inline(always)]
-    pub(crate) fn each<S: Simd>(
+    pub(crate) fn len(&self) -> usize {
+        self.count.min(MAX_BLOCKS)
+    }
+
+    /// A listed block's number and sample.
+    #[inline(always)]
+    pub(crate) fn get<S: Simd>(
         &self,
         simd: S,
+        index: usize,
         record: &CellRecord,
         is_perspective: bool,
-        mut visit: impl FnMut(usize, Sample<S>),
-    ) {
-        for item in &self.items[..self.count.min(MAX_BLOCKS)] {
-            visit(item.block as usize, item.sample(simd, record, is_perspective));
-        }
+    ) -> (usize, Sample<S>) {
+        let item = &self.items[index & (MAX_BLOCKS - 1)];
+        (item.block as usize, item.sample(simd, record, is_perspective))
     }
 }
 

@@ -5,10 +5,9 @@ use tetrascope_integrate::surface::{IsosurfaceMap, SmoothMaps, TexelAxis};
 use tetrascope_integrate::{IsosurfaceError, Isosurfaces, SurfaceShading};
 use tetrascope_scene::{IsosurfaceMethod, Mixing, Plan};
 
-use super::methods::{CellOptics, Method};
-use super::model::Model;
+use super::methods::CellOptics;
 use super::sample::{LANES, Light, Sample};
-use super::surfaces::{CellWithEffects, Joint};
+use super::surfaces::{CellWithEffects, Joint, Shade};
 
 /// The maps of a plan, and what they were made from.
 #[derive(Debug)]
@@ -77,13 +76,14 @@ impl Maps {
 
     /// The light of a block, and the number of lanes in which a surface is seen.
     #[inline(always)]
-    pub(crate) fn shade<S: Simd, I: Method, M: Model>(
+    pub(crate) fn shade<S: Simd>(
         &self,
         simd: S,
         cell: CellOptics<'_>,
         with_effects: &CellWithEffects<'_>,
         sample: &Sample<S>,
         joint: &mut Joint,
+        shade: Shade<S>,
     ) -> (Light<S>, u64) {
         let reference = with_effects.record.scalar_reference;
         let at_reference = f32x8::splat(simd, ((reference - self.axis.start) * self.axis.per_scalar) as f32);
@@ -97,7 +97,7 @@ impl Maps {
 
         let rays = with_effects.rays(simd, sample);
         let at_depth = |depth: f32x8<S>| with_effects.intensities(simd, &rays, depth);
-        let volume = with_effects.volume::<S, I, M>(simd, cell, sample, &rays);
+        let volume = with_effects.volume(simd, cell, sample, &rays, shade);
         let (light, opacity) = match &self.passes {
             Passes::Behind(map) => {
                 let (rgb, opacity) = map.look_up_lanes(simd, front, back);

@@ -15,8 +15,7 @@ use super::cell::CellPieces;
 use super::effects::{Light as Lamp, LocalSurface};
 use super::gradient::CellGradient;
 use super::maps::Maps;
-use super::methods::{CellOptics, Method};
-use super::model::Model;
+use super::methods::CellOptics;
 use super::record::CellRecord;
 use super::sample::{LANES, Light, Sample};
 use crate::geometry::PixelSpace;
@@ -85,6 +84,9 @@ pub(crate) struct Rays<S: Simd> {
     is_perspective: bool,
 }
 
+/// The volume of a segment by the plan's integration.
+pub(crate) type Shade<S> = fn(S, CellOptics<'_>, &Sample<S>) -> Light<S>;
+
 impl CellWithEffects<'_> {
     /// The rays of the block of a sample.
     #[inline(always)]
@@ -108,11 +110,7 @@ impl CellWithEffects<'_> {
     #[inline(always)]
     pub(crate) fn intensities<S: Simd>(&self, simd: S, rays: &Rays<S>, depth: f32x8<S>) -> Option<[f32x8<S>; 2]> {
         let (gradient, lamp) = (self.gradient?, self.lamp?);
-        let [u, w] = rays.across;
-        let place = if rays.is_perspective { [u * depth, w * depth, depth] } else { [u, w, depth] };
-        let gradient = gradient.at(simd, place);
-        let to_light = lamp.direction.map_or(rays.to_eye, |direction| direction.map(|x| f32x8::splat(simd, x)));
-        Some(phong(simd, &lamp.phong, gradient, rays.to_eye, to_light))
+        Some(intensities(simd, gradient, lamp, rays, depth))
     }
 
     /// What the light makes of the volume, by the gradient in the middle of the segment; `None` if it is not lit.
@@ -124,14 +122,15 @@ impl CellWithEffects<'_> {
 
     /// The volume of a whole segment, lit if it is to be.
     #[inline(always)]
-    pub(crate) fn volume<S: Simd, I: Method, M: Model>(
+    pub(crate) fn volume<S: Simd>(
         &self,
         simd: S,
         cell: CellOptics<'_>,
         sample: &Sample<S>,
         rays: &Rays<S>,
+        shade: Shade<S>,
     ) -> Light<S> {
-        lit(I::shade::<S, M>(simd, cell, sample), self.intensities_of_volume(simd, rays, sample))
+        lit(shade(simd, cell, sample), self.intensities_of_volume(simd, rays, sample))
     }
 
     /// Ranks of both ends among the cell's surfaces.
@@ -150,29 +149,35 @@ impl CellWithEffects<'_> {
         [front.max(0.0).min(self.range.count as f32), back]
     }
 
-    /// The light of a block, and the number of crossings.
-    #[inline(always)]
-    pub(crate) fn shade<S: Simd, I: Method, M: Model>(
+    /// The light of a block, and the number of crossings. Out of line, and one for all methods: it is large, and the method is
+    /// called through `shade`.
+    #[inline(never)]
+    pub(crate) fn shade<S: Simd>(
         &self,
         simd: S,
         cell: CellOptics<'_>,
         sample: &Sample<S>,
         joint: &mut Joint,
+        shade: Shade<S>,
     ) -> (Light<S>, u64) {
-        match self.maps {
-            Some(maps) if self.range.count > 0 => maps.shade::<S, I, M>(simd, cell, self, sample, joint),
-            _ => self.cut::<S, I, M>(simd, cell, sample, joint),
-        }
+        simd.vectorize(
+            #[inline(always)]
+            || match self.maps {
+                Some(maps) if self.range.count > 0 => maps.shade(simd, cell, self, sample, joint, shade),
+                _ => self.cut(simd, cell, sample, joint, shade),
+            },
+        )
     }
 
     /// The segments cut at the surfaces.
     #[inline(always)]
-    fn cut<S: Simd, I: Method, M: Model>(
+    fn cut<S: Simd>(
         &self,
         simd: S,
         cell: CellOptics<'_>,
         sample: &Sample<S>,
         joint: &mut Joint,
+        shade: Shade<S>,
     ) -> (Light<S>, u64) {
         let rays = self.rays(simd, sample);
         let of_volume = self.intensities_of_volume(simd, &rays, sample);
@@ -209,7 +214,7 @@ impl CellWithEffects<'_> {
             let length = sample.length * share;
             if length.simd_gt(zero).any_true() {
                 let part = Sample { front: rises.select(from, to), back: rises.select(to, from), length, ..*sample };
-                let part = lit(I::shade::<S, M>(simd, cell, &part), of_volume);
+                let part = lit(shade(simd, cell, &part), of_volume);
                 compose(&mut light, part, rises);
             }
             if index < last {
@@ -254,6 +259,27 @@ impl CellWithEffects<'_> {
         }
         Light { rgb, transmittance: one - opacity }
     }
+}
+
+/// [`CellWithEffects::intensities`] out of line: it is asked for at several places.
+#[inline(never)]
+fn intensities<S: Simd>(
+    simd: S,
+    gradient: &CellGradient,
+    lamp: &Lamp,
+    rays: &Rays<S>,
+    depth: f32x8<S>,
+) -> [f32x8<S>; 2] {
+    simd.vectorize(
+        #[inline(always)]
+        || {
+            let [u, w] = rays.across;
+            let place = if rays.is_perspective { [u * depth, w * depth, depth] } else { [u, w, depth] };
+            let gradient = gradient.at(simd, place);
+            let to_light = lamp.direction.map_or(rays.to_eye, |direction| direction.map(|x| f32x8::splat(simd, x)));
+            phong(simd, &lamp.phong, gradient, rays.to_eye, to_light)
+        },
+    )
 }
 
 /// Volume multiplied by what comes back of the light.

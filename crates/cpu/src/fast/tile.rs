@@ -5,7 +5,7 @@ use tetrascope_integrate::{Integration, OpticalModel};
 use tetrascope_scene::Plan;
 
 use super::careful::careful_sample;
-use super::cell::CellPieces;
+use super::cell::{CarefulCell, CellPieces};
 use super::cover::{BlockRange, CoverList};
 use super::effects::{Effects, LocalSurface};
 use super::lookup::Lookup;
@@ -228,28 +228,56 @@ impl Job<'_> {
         let Canvas { tile, pixels, covers, done } = canvas;
         let range = pixels.range(*tile, record);
         let brush = Brush { cell, with_effects, termination: self.plan.termination };
-        if record.entry_count > 0 {
+        // One place of the code that shades: it is large, and compiled for every method.
+        let careful = (record.entry_count == 0).then(|| &records.careful[record.careful as usize]);
+        let count = if careful.is_some() {
+            (range.rows * range.columns) as usize
+        } else {
             covers.find(simd, record, range);
-            covers.each(
-                simd,
-                record,
-                self.space.is_perspective,
-                #[inline(always)]
-                |block, sample| brush.blend::<S, I, M>(simd, sample, block, pixels, done),
-            );
-            return;
-        }
-        let careful = &records.careful[record.careful as usize];
-        for row in 0..range.rows {
-            for column in 0..range.columns {
-                let place = [range.pixel[0] + column * BLOCK_WIDTH, range.pixel[1] + row * BLOCK_HEIGHT];
-                if let Some(sample) = careful_sample(simd, careful, record, self.space, place) {
-                    let block = (range.first + row * range.stride + column) as usize;
-                    brush.blend::<S, I, M>(simd, sample, block, pixels, done);
+            covers.len()
+        };
+        for index in 0..count {
+            let (block, sample) = if let Some(careful) = careful {
+                match sample_carefully(simd, careful, record, self.space, range, index as u32) {
+                    Some(found) => found,
+                    None => continue,
                 }
-            }
+            } else {
+                covers.get(simd, index, record, self.space.is_perspective)
+            };
+            brush.blend::<S, I, M>(simd, sample, block, pixels, done);
         }
     }
+}
+
+/// The number and the sample of a cell's block that is drawn in f64, out of line: few are.
+#[inline(never)]
+fn sample_carefully<S: Simd>(
+    simd: S,
+    cell: &CarefulCell,
+    record: &CellRecord,
+    space: &PixelSpace,
+    range: BlockRange,
+    index: u32,
+) -> Option<(usize, Sample<S>)> {
+    simd.vectorize(
+        #[inline(always)]
+        || {
+            let (column, row) = (index % range.columns, index / range.columns);
+            let place = [range.pixel[0] + column * BLOCK_WIDTH, range.pixel[1] + row * BLOCK_HEIGHT];
+            let sample = careful_sample(simd, cell, record, space, place)?;
+            Some(((range.first + row * range.stride + column) as usize, sample))
+        },
+    )
+}
+
+/// A method's shading out of line, for what is drawn with effects.
+#[inline(never)]
+fn shade<S: Simd, I: Method, M: Model>(simd: S, cell: CellOptics<'_>, sample: &Sample<S>) -> Light<S> {
+    simd.vectorize(
+        #[inline(always)]
+        || I::shade::<S, M>(simd, cell, sample),
+    )
 }
 
 /// A cell that is being blended.
@@ -286,7 +314,7 @@ impl Brush<'_> {
             return;
         };
         let joint = &mut pixels.joints[number];
-        let (light, crossings) = with_effects.shade::<S, I, M>(simd, self.cell, &sample, joint);
+        let (light, crossings) = with_effects.shade(simd, self.cell, &sample, joint, shade::<S, I, M>);
         done.crossings += crossings;
         block.add(simd, before, light, true, true);
     }
