@@ -140,10 +140,13 @@ impl Report {
                 counts.drawn, counts.cells, counts.transparent, counts.outside, counts.fragments
             ),
         );
+        if counts.crossings > 0 {
+            self.say("crossings", &format!("{} of rays with isosurfaces", counts.crossings));
+        }
         self.put(
             "counts",
             json!({ "cells": counts.cells, "drawn": counts.drawn, "transparent": counts.transparent,
-                "outside": counts.outside, "fragments": counts.fragments }),
+                "outside": counts.outside, "fragments": counts.fragments, "crossings": counts.crossings }),
         );
         self.timings.extend(rendered.timings.iter().map(|(stage, time)| (stage.to_string(), *time)));
     }

@@ -1,7 +1,7 @@
 //! Why a picture was not drawn.
 
-use tetrascope_integrate::{Integration, SurfaceShading};
-use tetrascope_scene::{IsosurfaceMethod, Mixing, Plan};
+use tetrascope_integrate::Integration;
+use tetrascope_scene::{Gradients, IsosurfaceMethod, Mixing, Plan};
 
 /// Why a picture was not drawn.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -49,11 +49,12 @@ pub enum RenderError {
         /// The integration.
         integration: Integration,
     },
-    /// Where a shaded isosurface lets light through, the volume in front of it and behind it do not fit one table.
+    /// Transparent isosurfaces are part of the table's light: light from outside does not reach them there, and a table that is
+    /// linear in the length would scale their opacity with it.
     #[error(
-        "isosurfaces that are shaded and transparent cannot be stopped at in a table; use isosurfaces by \"exact\" or \"map-smooth\""
+        "transparent isosurfaces go into a table only with \"table-3d\" and without light; use isosurfaces by \"exact\" or \"map-smooth\""
     )]
-    StoppedByTransparent,
+    TransparentInTable,
     /// The operating system gave no threads.
     #[error("{threads} threads could not be started: {problem}; ask for fewer")]
     Threads {
@@ -69,14 +70,16 @@ pub(crate) fn check_methods(plan: &Plan) -> Result<(), RenderError> {
     let integration = plan.integration;
     integration.check(plan.model)?;
     let Some(isosurfaces) = &plan.isosurfaces else { return Ok(()) };
-    let is_shaded = isosurfaces.surfaces.shading() != SurfaceShading::None;
     match isosurfaces.method {
         IsosurfaceMethod::Exact if integration.needs_fan() => Err(RenderError::FanWithIsosurfaces),
         IsosurfaceMethod::Map { mixing: Mixing::Stopped, .. } if !integration.needs_table() => {
             Err(RenderError::NoTableToStop { integration })
         }
-        IsosurfaceMethod::Map { mixing: Mixing::Stopped, .. } if is_shaded && !isosurfaces.surfaces.are_opaque() => {
-            Err(RenderError::StoppedByTransparent)
+        IsosurfaceMethod::Map { mixing: Mixing::Stopped, .. }
+            if !isosurfaces.surfaces.visible().are_opaque()
+                && (integration == Integration::Table2d || plan.gradients() != Gradients::None) =>
+        {
+            Err(RenderError::TransparentInTable)
         }
         _ => Ok(()),
     }

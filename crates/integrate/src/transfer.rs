@@ -314,10 +314,11 @@ fn shares(start: f64, end: f64, scalar: f64) -> [f64; 2] {
     }
 }
 
-/// Linear interpolation that hits both ends and does not overflow. Adding zero turns -0 into 0.
+/// Linear interpolation that hits both ends and does not overflow, also between values near the largest float. Adding zero turns -0
+/// into 0.
 #[inline]
 fn mix(at_start: f64, at_end: f64, shares: [f64; 2]) -> f64 {
-    at_start * shares[0] + at_end * shares[1] + 0.0
+    (at_start * shares[0] + at_end * shares[1] + 0.0).min(f64::MAX)
 }
 
 fn brightest(color: [f64; 3]) -> f64 {

@@ -249,6 +249,10 @@ fn methods_that_do_not_go_together_are_refused_with_a_way_out() {
             ["quality.isosurfaces = \"map-stopped\"", "shaded isosurfaces", "opacities 1", "\"map-smooth\""],
         ),
         (
+            quality("integration = \"table-2d\"\nisosurfaces = \"map-stopped\"", &glass),
+            ["quality.isosurfaces = \"map-stopped\"", "\"table-2d\" would scale", "\"table-3d\"", "\"map-smooth\""],
+        ),
+        (
             format!("[light]\nvolume = true\n{}", quality(stopped, &glass)),
             ["quality.isosurfaces = \"map-stopped\"", "a lit volume", "opacities 1", "\"exact\""],
         ),

@@ -27,6 +27,11 @@ pub(crate) struct CellEffects {
 /// inside: rounding may put a scalar at its faces there. Too many cost a little time and nothing else.
 const MARGIN: [f64; 2] = [1e-4, 1e-6];
 
+/// A scalar this share of a cell's range below a surface's value counts as on it: rounding of a face's scalars in steep cells (see
+/// `STEEP` in set-up), without which a surface that lies in faces of the mesh's boundary would be there in some pixels only. It moves
+/// surfaces by as much.
+const SIDE: f32 = 1e-5;
+
 /// Depths are off by at most this share of a cell's own range of depths (a steep plane, see `STEEP` in set-up, has 2e-5 of it), and
 /// by this share of the depth itself (a few roundings).
 const SLACK: [f64; 2] = [1e-4, 1e-6];
@@ -116,8 +121,10 @@ impl Effects {
     /// The surfaces that may cut a cell, ascending, as it sees them.
     pub(crate) fn localize(&self, record: &CellRecord, cell: &CellEffects, local: &mut Vec<LocalSurface>) {
         let first = cell.first as usize;
+        let [low, high] = record.scalar_range;
+        let tolerance = SIDE * (high - low);
         let to_local = |surface: &Isosurface| LocalSurface {
-            value: (surface.value - record.scalar_reference) as f32,
+            value: (surface.value - record.scalar_reference) as f32 - tolerance,
             colors: [surface.color, surface.back_color].map(|color| color.map(|c| c as f32)),
             opacity: surface.opacity as f32,
             is_lit: surface.shading != SurfaceShading::None,

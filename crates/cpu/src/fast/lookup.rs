@@ -1,8 +1,7 @@
 //! The table of an integration by table, kept from frame to frame.
 
 use tetrascope_integrate::{
-    Isosurfaces, MethodError, OpticalModel, SurfaceRole, SurfaceShading, Table2d, Table3d, TableDomain, TableSettings,
-    TransferFunction,
+    Isosurfaces, MethodError, OpticalModel, SurfaceRole, Table2d, Table3d, TableDomain, TableSettings, TransferFunction,
 };
 use tetrascope_mesh::ChordLengths;
 use tetrascope_scene::{IsosurfaceMethod, Mixing, Plan};
@@ -49,14 +48,14 @@ pub(crate) struct CellTable<'a> {
     pub(crate) length: f32,
 }
 
-/// What isosurfaces are in the table: none, or, where the integral is to stop in the table itself, all of them. What has no
-/// shading is part of the table's light; what has is drawn behind it.
+/// What isosurfaces are in the table: none, or, where the integral is to stop in the table itself, all of them. Opaque ones end
+/// the integral and are drawn behind it; transparent ones are part of the table's light.
 pub(crate) fn role(plan: &Plan) -> Option<SurfaceRole> {
     let isosurfaces = plan.isosurfaces.as_ref()?;
     match isosurfaces.method {
         IsosurfaceMethod::Map { mixing: Mixing::Stopped, .. } if plan.integration.needs_table() => {
-            let is_shaded = isosurfaces.surfaces.shading() != SurfaceShading::None;
-            Some(if is_shaded { SurfaceRole::Stop } else { SurfaceRole::Included })
+            let are_opaque = isosurfaces.surfaces.visible().are_opaque();
+            Some(if are_opaque { SurfaceRole::Stop } else { SurfaceRole::Included })
         }
         _ => None,
     }

@@ -1,7 +1,7 @@
 //! What the fast renderer does and leaves out: counts, memory of transfer functions, early ends, careful cells.
 
 use glam::DVec3;
-use tetrascope_integrate::{OpticalModel, TransferFunction};
+use tetrascope_integrate::{Isosurfaces, OpticalModel, TransferFunction};
 use tetrascope_mesh::TetMesh;
 use tetrascope_scene::{Plan, Silent};
 use tetrascope_view::{Camera, Projection, View};
@@ -48,12 +48,13 @@ fn two_transfer_functions_are_remembered_and_no_more() {
     let (mesh, scalars) = row(4);
     let renderer = CpuRenderer::new(&mesh, &scalars).unwrap();
     let plans = [0.5, 1.0, 2.0].map(|rho| plan(&[[0.0, rho]]));
-    let first = renderer.optics(&plans[0]);
-    let _second = renderer.optics(&plans[1]);
-    assert!(std::sync::Arc::ptr_eq(&first, &renderer.optics(&plans[0])), "made anew though it was remembered");
-    let _third = renderer.optics(&plans[2]);
+    let none = Isosurfaces::default();
+    let first = renderer.optics(&plans[0], &none);
+    let _second = renderer.optics(&plans[1], &none);
+    assert!(std::sync::Arc::ptr_eq(&first, &renderer.optics(&plans[0], &none)), "made anew though it was remembered");
+    let _third = renderer.optics(&plans[2], &none);
     assert_eq!(renderer.optics.lock().unwrap().len(), KEPT);
-    assert!(std::sync::Arc::ptr_eq(&first, &renderer.optics(&plans[0])), "the least recently used goes first");
+    assert!(std::sync::Arc::ptr_eq(&first, &renderer.optics(&plans[0], &none)), "the least recently used goes first");
 }
 
 #[test]

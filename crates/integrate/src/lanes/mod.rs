@@ -27,8 +27,8 @@
 pub mod cumulative;
 mod exponential;
 mod maps;
-mod phong;
 mod partial;
+mod phong;
 mod split;
 mod table;
 mod thin;
@@ -39,9 +39,9 @@ mod surface_tests;
 mod tests;
 
 pub use exponential::{exp_negative, opacity_transmittance};
+pub use partial::partial_weights;
 pub use phong::phong;
 pub use table::TableLight;
-pub use partial::partial_weights;
 
 use fearless_simd::{Simd, f32x8, prelude::*};
 

@@ -65,6 +65,15 @@ impl Scene {
                 format!("stops the integral in a table, and quality.integration = \"{integration}\" has none"),
                 "use integration \"table-2d\" or \"table-3d\", or isosurfaces \"exact\" or \"map-smooth\"",
             )),
+            IsosurfaceMethod::Map { mixing: Mixing::Stopped, .. }
+                if integration == Integration::Table2d && !surfaces.are_opaque() =>
+            {
+                Err(stopped(
+                    "puts transparent isosurfaces into the table, and \"table-2d\" would scale their opacity with the length"
+                        .to_owned(),
+                    "use integration \"table-3d\", make all opacities 1, or use \"exact\" or \"map-smooth\"",
+                ))
+            }
             IsosurfaceMethod::Map { mixing: Mixing::Stopped, .. } if lighting.is_some() && !surfaces.are_opaque() => {
                 let lit =
                     if surfaces.shading() == SurfaceShading::None { "a lit volume" } else { "shaded isosurfaces" };
