@@ -92,8 +92,11 @@ fn tables(model: OpticalModel, args: &Args) -> Result<Vec<Table>, Failure> {
     });
     for family in &families {
         // One family at a time, so that no more tables than its own are in memory.
-        let mut found = methods(&family.transfer, model, &DOMAIN)?;
-        found.retain(|method| method.name.contains(&args.only));
+        let found = methods(&family.transfer, model, &DOMAIN, &args.only)?;
+        if found.is_empty() {
+            println!("{model}: no method that covers it has \"{}\" in its name", args.only);
+            return Ok(Vec::new());
+        }
         for ((_, widest), table) in CELLS.iter().zip(&mut tables) {
             for (method, cell) in found.iter().zip(measure(family, model, &found, *widest, args.samples)) {
                 let row = match table.rows.iter_mut().find(|row| row.method == method.name && row.size == method.size) {

@@ -28,11 +28,13 @@ impl<'a> Method<'a> {
     }
 }
 
-/// All methods that cover a model, with tables made for the transfer function and the domain, from coarse to exact.
+/// All methods that cover a model and whose names contain `only`, with tables made for the transfer function and the domain, from
+/// coarse to exact.
 pub(crate) fn methods<'a>(
     transfer: &'a TransferFunction,
     model: OpticalModel,
     domain: &TableDomain,
+    only: &str,
 ) -> Result<Vec<Method<'a>>, MethodError> {
     let direct = |name, function: fn(&TransferFunction, OpticalModel, &Segment) -> RgbaAssoc| {
         Method::new(name, String::new(), move |segment| function(transfer, model, segment))
@@ -57,19 +59,23 @@ pub(crate) fn methods<'a>(
         uncorrected.without_correction(model, segment)
     }));
     methods.push(Method::new("cumulative", String::new(), move |segment| running.integrate(model, segment)));
-    for size in SIZES_2D {
+    // Large tables take their time, so that those nobody asked for are not built.
+    let sizes_2d: &[u32] = if "table-2d".contains(only) { &SIZES_2D } else { &[] };
+    let sizes_3d: &[u32] = if "table-3d".contains(only) { &SIZES_3D } else { &[] };
+    for &size in sizes_2d {
         let settings = TableSettings { scalars: size, lengths: TableSettings::LEAST, length_axis: LengthAxis::Linear };
         let table = Table2d::build(transfer, model, domain, &settings, None, &|_, _| {})?;
         methods.push(Method::new("table-2d", format!("{size}²"), move |segment| table.look_up(segment)));
     }
     for (length_axis, spacing) in [(LengthAxis::Linear, "linear"), (LengthAxis::Logarithmic, "logarithmic")] {
-        for size in SIZES_3D {
+        for &size in sizes_3d {
             let settings = TableSettings { scalars: size, lengths: size, length_axis };
             let table = Table3d::build(transfer, model, domain, &settings, None, &|_, _| {})?;
             methods.push(Method::new("table-3d", format!("{size}³ {spacing}"), move |segment| table.look_up(segment)));
         }
     }
     methods.push(direct("exact", exact));
+    methods.retain(|method| method.name.contains(only));
     Ok(methods)
 }
 

@@ -55,7 +55,7 @@ impl fmt::Display for Table {
 /// Two digits: `0.44`, `7.0e-4`; `0` below what rounding in f64 leaves.
 fn rounded(error: f64) -> String {
     match error {
-        error if error < 1e-14 => "0".to_owned(),
+        error if error < 1e-13 => "0".to_owned(),
         error if error < 0.00995 => format!("{error:.1e}"),
         error => format!("{error:.2}"),
     }
