@@ -1,8 +1,10 @@
 //! Automation: `cargo xtask` without more lists what there is.
 #![expect(clippy::print_stdout, clippy::print_stderr, reason = "a program speaks to its user")]
 
+mod accuracy;
 mod bench;
 mod ci;
+mod figures;
 mod golden;
 mod tidy;
 
@@ -25,6 +27,10 @@ enum Task {
     Golden(golden::Args),
     /// Milliseconds a frame of the CPU renderer
     Bench(bench::Args),
+    /// The error of every integration method against the exact one
+    Accuracy(accuracy::Args),
+    /// The pictures of docs/gallery.md
+    Figures(figures::Args),
 }
 
 fn main() -> ExitCode {
@@ -33,6 +39,8 @@ fn main() -> ExitCode {
         Task::Tidy => tidy::run(&root()),
         Task::Golden(args) => golden::run(&args),
         Task::Bench(args) => bench::run(&args),
+        Task::Accuracy(args) => accuracy::run(&args),
+        Task::Figures(args) => figures::run(&args),
     };
     match done {
         Ok(()) => ExitCode::SUCCESS,
