@@ -3,12 +3,17 @@
 //! Two renderers live here, kept apart, and both follow a [`Plan`](tetrascope_scene::Plan):
 //!
 //! - [`mod@reference`] clips every pixel's ray against every tetrahedron in f64, sorts what it finds along each ray and
-//!   integrates exactly. It needs no visibility order and handles cycles. Slow, and the judge.
+//!   integrates it as the plan says, by any method along a ray. It needs no visibility order and handles cycles. Slow, and
+//!   the judge.
 //! - [`CpuRenderer`] is what users run: one set-up per tetrahedron, tiles, eight pixels at a time in f32, all cores. It
-//!   draws the cells in the order that the plan names.
+//!   draws the cells in the order that the plan names, with any method.
 //!
 //! Both see a cell through the same four planes, so they agree on which pixels it covers, seams included: a ray that runs
 //! exactly in a face, along an edge or through a vertex belongs to exactly one cell.
+//!
+//! Isosurfaces are met along the ray, inside the cells. On which side of them a ray leaves one cell is on which side it
+//! enters the next, so that no surface is missed or met twice between them. The reference cuts rays at the crossings
+//! whatever the plan says of maps, which approximate that. Gradients, tables and maps are made if the plan asks for them.
 //!
 //! ```
 //! use glam::DVec3;
@@ -33,8 +38,9 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
-//! Limits: cells are blended in one global order, so that the fast renderer is right only where that order is; the
-//! reference keeps all fragments of a tile in memory.
+//! Limits: cells are blended in one global order, so that the fast renderer is right only where that order is, for the
+//! sides of isosurfaces too; the reference keeps all fragments of a tile in memory and has no fan for
+//! [`Integration::Vertex`](tetrascope_integrate::Integration::Vertex).
 
 mod domain;
 mod error;

@@ -8,8 +8,18 @@
 //! [`exact`] cuts a segment where its scalar crosses a control point; on each of the pieces color and extinction are
 //! linear, and the integral has a closed form: the two ends count with [`weights`] that depend on nothing but the
 //! optical depths there. [`average`], [`thick_vertex`], [`opacity_2d`] and [`partial`] are the approximations of the
-//! literature, [`RunningIntegrals`] has the opacity of [`exact`] at one cost for any transfer function. All of that is in
-//! 64 bits; [`lanes`] has the weights for eight rays at once in 32 bits, for renderers.
+//! literature, [`RunningIntegrals`] has the opacity of [`exact`] at one cost for any transfer function. [`Table3d`] holds
+//! exact light over both scalars and the length, [`Table2d`] over the scalars alone. [`Integrator`] has any of them by its
+//! name, an [`Integration`], and [`deviation()`] measures how far they are from [`exact`].
+//!
+//! [`Isosurfaces`] are surfaces of one scalar, met along the ray and never extracted: [`Isosurfaces::compose`] cuts a
+//! segment where its scalar passes their values, with the volume integrated in front of and behind each. Which surfaces are
+//! met follows from the ranks of the two ends, so that along a chain of segments each counts once. [`IsosurfaceMap`] and
+//! [`SmoothMaps`] look them up instead, at one cost for any number, and move them by up to half a texel of scalar.
+//! [`Phong`] is the light on them.
+//!
+//! All of that is in 64 bits, but for the entries of tables and maps; [`lanes`] has the same for eight rays at once in 32
+//! bits, for renderers.
 //!
 //! ```
 //! use tetrascope_integrate::{OpticalModel, Segment, TransferFunction, average, exact};
@@ -30,8 +40,8 @@
 //! # Limits
 //!
 //! The crate knows no mesh and no pixel; scattering is not here. Extinction has one
-//! value for all colors. Scalars and lengths are finite: a NaN scalar takes the first piece's values, a NaN length gives
-//! NaN. Lengths are in the unit whose inverse the extinction has ([`TransferFunction::with_lengths_scaled`] changes it).
+//! value for all colors. Scalars and lengths are finite: to [`exact`] a NaN scalar takes the first piece's values, a NaN
+//! length gives NaN. Lengths are in the unit whose inverse the extinction has ([`TransferFunction::with_lengths_scaled`] changes it).
 
 mod average;
 mod deviation;

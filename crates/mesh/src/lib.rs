@@ -3,7 +3,8 @@
 //! A reader hands over a [`Dataset`]: points in world coordinates, cells of any kind, and named arrays.
 //! [`decompose`] cuts it into a [`TetMesh`] by a fixed rule and says what it left out. From there on only tetrahedra exist:
 //! [`FaceAdjacency`] joins them face to face (it knows no positions), [`check`] says what is wrong with them, and
-//! [`vertex_gradients`] is computed only when something asks for it.
+//! [`vertex_gradients`] and [`chord_lengths`], the mean and longest way of rays inside cells, are computed only when
+//! something asks for them.
 //!
 //! Coordinates are f64 in a [`Frame`] of the mesh's own, so that neither a cube of a nanometer nor one at a northing of
 //! five million loses anything. Which way round a tetrahedron lies, and whether it has a volume at all, is decided

@@ -7,8 +7,9 @@
 //!    [`MeshFacts`] that defaults are made from: the box around the mesh and the field's range.
 //! 3. [`Scene`]: all numbers. `SceneFile::complete` fills defaults that do not depend on the unit of length, and gives
 //!    back a file with which the same picture can be made again.
-//! 4. [`Plan`]: methods chosen, with a [`Decision`] for everything done or left out. Back ends take it and report
-//!    their [`Progress`] by [`Stage`].
+//! 4. [`Plan`]: methods chosen, with a [`Decision`] for everything done or left out; methods that do not go together are
+//!    an error here. Back ends take it and report their [`Progress`] by [`Stage`]. What a scene does not ask for is not
+//!    in it: [`Plan::isosurfaces`], [`Plan::lighting`], [`Plan::table_settings`], [`Plan::gradients`].
 //!
 //! ```
 //! # #[cfg(feature = "file")] {

@@ -21,6 +21,10 @@
 //! ```
 //!
 //! Every step is public: keep the [`Volume`] to draw other fields, and a [`CpuRenderer`] to draw one from many sides.
+//! Isosurfaces and the light are sections of the scene ([`IsosurfaceSection`], [`LightSection`]). What the back ends
+//! compute with is there for itself too: every way to integrate behind its name ([`Integrator`]), tables and maps
+//! ([`Table2d`], [`Table3d`], [`IsosurfaceMap`], [`SmoothMaps`]), and how far a way is from the exact light
+//! ([`deviation()`]).
 //!
 //! Limits: the back ends are the CPU's; surfaces from files and color map files are not there yet and refused by name.
 
@@ -34,13 +38,15 @@ pub use volume::{SAMPLE, Volume, VolumeField, is_builtin, resolve_path};
 
 pub use tetrascope_cpu::{Counts, CpuRenderer, RenderError, Rendered, reference};
 pub use tetrascope_integrate::{
-    Integration, Isosurface, IsosurfaceError, Isosurfaces, LengthAxis, MethodError, OpticalModel, Phong,
-    SurfaceShading, TableSettings, TransferFunction,
+    Crossing, Deviation, Integration, Integrator, Isosurface, IsosurfaceError, IsosurfaceMap, Isosurfaces, LengthAxis,
+    MethodError, OpticalModel, Phong, PhongError, PsiTable, RgbaAssoc, RunningIntegrals, ScalarAxis, Segment,
+    SmoothMaps, SurfaceRole, SurfaceShading, Table2d, Table3d, TableDomain, TableSettings, TexelAxis, TransferFunction,
+    deviation,
 };
 pub use tetrascope_io::{IoError, Loaded, read_exr, read_mesh, readers, write_exr, write_image, write_png};
 pub use tetrascope_mesh::{
-    ArrayValues, CellKind, Cells, DataArray, Dataset, Decomposition, MeshError, StructuredBlock, TetMesh,
-    UnstructuredCells, decompose,
+    ArrayValues, CellKind, Cells, ChordLengths, DataArray, Dataset, Decomposition, MeshError, StructuredBlock, TetMesh,
+    UnstructuredCells, chord_lengths, decompose, vertex_gradients,
 };
 pub use tetrascope_order::OrderMethod;
 pub use tetrascope_scene::{
