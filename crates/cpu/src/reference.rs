@@ -74,9 +74,12 @@ fn render_here(mesh: &TetMesh, scalars: &[f64], plan: &Plan, progress: &dyn Prog
         None
     };
     let settings = plan.table_settings();
-    let tell = |done, total| progress.report(Stage::Prepare, done, total);
+    let tell = |done, total| progress.report(Stage::Tabulate, done, total);
     let integrator =
         Integrator::new(plan.integration, &plan.transfer, plan.model, settings.as_ref().zip(domain.as_ref()), &tell)?;
+    if domain.is_some() {
+        watch.lap(Stage::Tabulate);
+    }
     let needed = plan.gradients();
     let lit = plan.lighting.as_ref().filter(|_| needed != Gradients::None);
     let composer = RayComposer {

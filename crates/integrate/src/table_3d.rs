@@ -27,7 +27,7 @@ use crate::{
 /// Where the transfer function is smooth the error falls with the square of the number of samples. At a peak narrower
 /// than the distance of two samples the largest error does not fall at all, the mean one does. Largest and mean over
 /// the four channels, density emitter, 40,000 segments of any two scalars and lengths from 1/1000 to 1/2 of the
-/// scalars' range (as many in each octave), transfer functions as in the README of the crate (example `table_errors`):
+/// scalars' range (as many in each octave), transfer functions as the example `table_errors` has them:
 ///
 /// | samples | lengths | ramp | three tents | thin shell | box | 256 random entries |
 /// | --- | --- | --- | --- | --- | --- | --- |

@@ -246,11 +246,11 @@ pub enum Stage {
     Transform,
     /// Visibility order.
     Order,
-    /// Cells into fans of triangles.
+    /// Cells into what the back end draws: planes, or fans of triangles.
     SetUp,
-    /// Fans into tiles of the picture.
+    /// Cells into tiles of the picture.
     Bin,
-    /// Fans into pixels.
+    /// Cells into pixels.
     Rasterize,
 }
 

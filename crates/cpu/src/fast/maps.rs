@@ -2,9 +2,10 @@
 
 use fearless_simd::{Simd, f32x8, prelude::*};
 use tetrascope_integrate::surface::{IsosurfaceMap, SmoothMaps, TexelAxis};
-use tetrascope_integrate::{IsosurfaceError, Isosurfaces, SurfaceShading};
+use tetrascope_integrate::{IsosurfaceError, Isosurfaces, SurfaceRole, SurfaceShading};
 use tetrascope_scene::{IsosurfaceMethod, Mixing, Plan};
 
+use super::lookup;
 use super::methods::CellOptics;
 use super::sample::{LANES, Light, Sample};
 use super::surfaces::{CellWithEffects, Joint, Shade};
@@ -14,7 +15,9 @@ use super::surfaces::{CellWithEffects, Joint, Shade};
 pub(crate) struct Maps {
     key: Key,
     passes: Passes,
-    pub(crate) axis: TexelAxis,
+    axis: TexelAxis,
+    /// Whether light falls on the surfaces: on all of them alike.
+    are_lit: bool,
 }
 
 /// How a surface gets into a cell.
@@ -43,6 +46,8 @@ impl Key {
     pub(crate) fn of(plan: &Plan, surfaces: &Isosurfaces) -> Option<Self> {
         match plan.isosurfaces.as_ref()?.method {
             IsosurfaceMethod::Exact => None,
+            // They are part of the table's light.
+            _ if lookup::role(plan) == Some(SurfaceRole::Included) => None,
             IsosurfaceMethod::Map { size, mixing } => {
                 (!surfaces.is_empty()).then(|| Self { surfaces: surfaces.clone(), size, mixing })
             }
@@ -66,7 +71,8 @@ impl Maps {
             let axis = maps.front().axis();
             (if key.mixing == Mixing::Stopped { Passes::BothBehind(maps) } else { Passes::Around(maps) }, axis)
         };
-        Ok(Self { key, passes, axis })
+        let are_lit = key.surfaces.shading() != SurfaceShading::None;
+        Ok(Self { key, passes, axis, are_lit })
     }
 
     /// Whether they are what a plan asks for.
@@ -96,7 +102,7 @@ impl Maps {
         let (front, back) = (to_texels(front), to_texels(own[1]));
 
         let rays = with_effects.rays(simd, sample);
-        let at_depth = |depth: f32x8<S>| with_effects.intensities(simd, &rays, depth);
+        let at_depth = |depth| if self.are_lit { with_effects.intensities(simd, &rays, depth) } else { None };
         let volume = with_effects.volume(simd, cell, sample, &rays, shade);
         let (light, opacity) = match &self.passes {
             Passes::Behind(map) => {

@@ -65,7 +65,8 @@ const KEPT: usize = 2;
 /// Draws one field on one mesh, again and again.
 ///
 /// Holds its own copy of what it needs: 17 bytes a tetrahedron and 32 a point, and up to 12 more a tetrahedron for each of
-/// the last two transfer functions. The memory of a frame is kept for the next one: about 140 bytes a visible tetrahedron.
+/// the last two transfer functions. The memory of a frame is kept for the next one: about 140 bytes a visible tetrahedron. Where
+/// plans ask for them, also 24 bytes a point of gradients, and the last two tables and maps.
 #[derive(Debug)]
 pub struct CpuRenderer {
     frame: Frame,
@@ -159,7 +160,6 @@ impl CpuRenderer {
         let space = PixelSpace::new(&view, self.frame.scale);
         let surfaces = self.surfaces(plan);
         let optics = self.optics(plan, &surfaces);
-        let lookup = self.lookup(plan, &surfaces, &optics, progress)?;
         let maps = self.maps(plan, &surfaces)?;
         let effects = Effects::new(plan, &surfaces, maps, &space);
         let gradients = match &effects {
@@ -167,6 +167,10 @@ impl CpuRenderer {
             _ => &[],
         };
         watch.lap(Stage::Prepare);
+        let lookup = self.lookup(plan, &surfaces, &optics, progress)?;
+        if lookup.is_some() {
+            watch.lap(Stage::Tabulate);
+        }
 
         let mut scratch = self.scratch.lock().unwrap_or_else(PoisonError::into_inner).take().unwrap_or_default();
         let Scratch { points, outlines, records, tiles } = &mut scratch;

@@ -1,9 +1,9 @@
-//! Weights and opacities for eight rays at once, in 32 bits.
+//! What a renderer needs per ray, for eight rays at once in 32 bits: weights, opacities, look-ups in tables and maps, light.
 //!
 //! The functions are generic over the processor's level and meant to be inlined into a loop that
-//! [`fearless_simd::dispatch!`] compiles for each. All take optical depths that are not negative, infinity included;
-//! an unused lane is best given zeros, since the thickest lane decides the path. What a NaN gives is not said, but it
-//! stays in its lane.
+//! [`fearless_simd::dispatch!`] compiles for each. Optical depths are not negative, infinity included; an unused lane is best
+//! given zeros, since the thickest lane decides the path. What a NaN gives is not said, but it stays in its lane. Look-ups are
+//! methods of their tables: [`crate::Table3d::look_up_lanes`] and its like.
 //!
 //! # Errors
 //!
