@@ -40,13 +40,13 @@ pub(crate) struct Args {
     /// Frames of the turn, each 3 degrees on.
     #[arg(long, default_value_t = 30)]
     frames: u32,
-    /// Isosurfaces in place of ways to integrate: 1, 10 and 100 of them, by every method.
+    /// Isosurfaces in place of ways to integrate: 1, 10, 100 and 1000 of them, by every method.
     #[arg(long)]
     isosurfaces: bool,
 }
 
 /// Numbers of isosurfaces.
-const SURFACES: [u32; 3] = [1, 10, 100];
+const SURFACES: [u32; 4] = [1, 10, 100, 1000];
 
 /// How much each of them hides: little enough that rays go on through a hundred.
 const SURFACE_OPACITY: f64 = 0.3;

@@ -101,31 +101,34 @@ impl Maps {
         let front = sample.covered.select(front, own[1]);
         let (front, back) = (to_texels(front), to_texels(own[1]));
 
-        let rays = with_effects.rays(simd, sample);
-        let at_depth = |depth| if self.are_lit { with_effects.intensities(simd, &rays, depth) } else { None };
-        let volume = with_effects.volume(simd, cell, sample, &rays, shade);
-        let (light, opacity) = match &self.passes {
-            Passes::Behind(map) => {
-                let (rgb, opacity) = map.look_up_lanes(simd, front, back);
-                let surface = shaded(simd, rgb, opacity, at_depth(sample.depth[0]));
-                (over(volume, surface), opacity)
-            }
-            Passes::BothBehind(maps) => {
-                let (rgb, a) = maps.front().look_up_lanes(simd, front, back);
-                let (rgb_behind, b) = maps.back().look_up_lanes(simd, front, back);
-                let near = shaded(simd, rgb, a, at_depth(sample.depth[0]));
-                let far = shaded(simd, rgb_behind, b, at_depth(sample.depth[1]));
-                (over(volume, over(near, far)), a + b)
-            }
-            Passes::Around(maps) => {
-                let (rgb, a) = maps.front().look_up_lanes(simd, front, back);
-                let (rgb_behind, b) = maps.back().look_up_lanes(simd, front, back);
-                let near = shaded(simd, rgb, a, at_depth(sample.depth[0]));
-                let far = shaded(simd, rgb_behind, b, at_depth(sample.depth[1]));
-                (over(near, over(volume, far)), a + b)
+        let (near, far) = match &self.passes {
+            Passes::Behind(map) => (map.look_up_lanes(simd, front, back), None),
+            Passes::BothBehind(maps) | Passes::Around(maps) => {
+                (maps.front().look_up_lanes(simd, front, back), Some(maps.back().look_up_lanes(simd, front, back)))
             }
         };
-        (light, u64::from(opacity.simd_gt(f32x8::splat(simd, 0.0)).to_bitmask().count_ones()))
+        let opacity = far.map_or(near.1, |far| near.1 + far.1);
+        let seen = opacity.simd_gt(f32x8::splat(simd, 0.0));
+        let rays = with_effects.rays(simd, sample);
+        let volume = with_effects.volume(simd, cell, sample, &rays, shade);
+        // In most blocks of most cells there is no surface: then nothing is to be lit.
+        if !seen.any_true() {
+            return (volume, 0);
+        }
+        let at_depth = |depth| if self.are_lit { with_effects.intensities(simd, &rays, depth) } else { None };
+        let near = shaded(simd, near, at_depth(sample.depth[0]));
+        let light = match far {
+            None => over(volume, near),
+            Some(far) => {
+                let far = shaded(simd, far, at_depth(sample.depth[1]));
+                if matches!(self.passes, Passes::Around(_)) {
+                    over(near, over(volume, far))
+                } else {
+                    over(volume, over(near, far))
+                }
+            }
+        };
+        (light, u64::from(seen.to_bitmask().count_ones()))
     }
 }
 

@@ -201,7 +201,11 @@ impl Job<'_> {
         let effects = self.effects?;
         let number = record.effects as usize;
         let of_cell = &records.effects[number];
-        effects.localize(record, of_cell, surfaces);
+        // Maps know all surfaces by themselves.
+        surfaces.clear();
+        if effects.maps.is_none() {
+            effects.localize(record, of_cell, surfaces);
+        }
         Some(CellWithEffects {
             record,
             surfaces,
