@@ -1,5 +1,6 @@
 //! What a cell has besides its volume: isosurfaces that may cut it, and light.
 
+use std::ops::Range;
 use std::sync::Arc;
 
 use glam::DVec3;
@@ -26,6 +27,15 @@ pub(crate) struct CellEffects {
 /// Isosurfaces whose values lie this share of a cell's own range, or this share of the field's, beyond the cell's range count as
 /// inside: rounding may put a scalar at its faces there. Too many cost a little time and nothing else.
 const MARGIN: [f64; 2] = [1e-4, 1e-6];
+
+/// The surfaces, by their place, that rays may cross in a cell of these scalars, lowest and highest, in the renderer's unit.
+pub(crate) fn surfaces_near(surfaces: &Isosurfaces, low: f64, high: f64) -> Range<usize> {
+    // The field's range is about one in the renderer's unit.
+    let margin = MARGIN[0] * (high - low) + MARGIN[1];
+    let surfaces = surfaces.as_slice();
+    let first = surfaces.partition_point(|surface| surface.value < low - margin);
+    first..first + surfaces[first..].partition_point(|surface| surface.value <= high + margin)
+}
 
 /// Depths are off by at most this share of a cell's own range of depths (a steep plane, see `STEEP` in set-up, has 2e-5 of it), and
 /// by this share of the depth itself (a few roundings).
@@ -100,17 +110,13 @@ impl Effects {
             values.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), &v| (low.min(v), high.max(v)))
         };
         let (low, high) = bounds(scalars);
-        // The field's range is about one in the renderer's unit.
-        let margin = MARGIN[0] * (high - low) + MARGIN[1];
-        let surfaces = self.surfaces.as_slice();
-        let first = surfaces.partition_point(|surface| surface.value < low - margin);
-        let count = surfaces[first..].partition_point(|surface| surface.value <= high + margin);
-        if count == 0 && !self.light.is_some_and(|light| light.volume) {
+        let near = surfaces_near(&self.surfaces, low, high);
+        if near.is_empty() && !self.light.is_some_and(|light| light.volume) {
             return None;
         }
         let (nearest, farthest) = bounds(&depths);
         let slack = SLACK[0] * (farthest - nearest) + SLACK[1] * farthest.abs().max(nearest.abs());
-        Some(CellEffects { first: first as u32, count: count as u32, slack: slack as f32 })
+        Some(CellEffects { first: near.start as u32, count: near.len() as u32, slack: slack as f32 })
     }
 
     /// The surfaces that may cut a cell, ascending, as it sees them.
