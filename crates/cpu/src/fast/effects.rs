@@ -26,7 +26,14 @@ pub(crate) struct CellEffects {
 
 /// Isosurfaces whose values lie this share of a cell's own range, or this share of the field's, beyond the cell's range count as
 /// inside: rounding may put a scalar at its faces there. Too many cost a little time and nothing else.
-const MARGIN: [f64; 2] = [1e-4, 1e-6];
+const MARGIN: [f64; 2] = [1e-4, 4e-6];
+
+/// How far below the value of a surface a scalar still counts as on it, as a share of the field's range: far above what
+/// a scalar rounds to in f32 in most cells, far below what a picture shows.
+///
+/// It moves all surfaces by this much and changes nothing else. Without it, a surface in the faces of cells, or in the mesh's
+/// boundary, would be there or not as each pixel rounds.
+const ON_SURFACE: f64 = 2e-6;
 
 /// The surfaces, by their place, that rays may cross in a cell of these scalars, lowest and highest, in the renderer's unit.
 pub(crate) fn surfaces_near(surfaces: &Isosurfaces, low: f64, high: f64) -> Range<usize> {
@@ -123,7 +130,7 @@ impl Effects {
     pub(crate) fn localize(&self, record: &CellRecord, cell: &CellEffects, local: &mut Vec<LocalSurface>) {
         let first = cell.first as usize;
         let to_local = |surface: &Isosurface| LocalSurface {
-            value: (surface.value - record.scalar_reference) as f32,
+            value: (surface.value - ON_SURFACE - record.scalar_reference) as f32,
             colors: [surface.color, surface.back_color].map(|color| color.map(|c| c as f32)),
             opacity: surface.opacity as f32,
             is_lit: surface.shading != SurfaceShading::None,
