@@ -48,6 +48,10 @@ pub(crate) fn surfaces_near(surfaces: &Isosurfaces, low: f64, high: f64) -> Rang
 /// by this share of the depth itself (a few roundings).
 const SLACK: [f64; 2] = [1e-4, 1e-6];
 
+/// Most of it, as a share of a cell's own range of depths: seen from so far that f32 does not tell one cell's depth from the
+/// next one's, cells in a wrong order would take each other's sides. Then each has its own.
+const MOST_SLACK: f64 = 0.05;
+
 /// The isosurfaces and the light of a frame.
 #[derive(Debug)]
 pub(crate) struct Effects {
@@ -122,7 +126,8 @@ impl Effects {
             return None;
         }
         let (nearest, farthest) = bounds(&depths);
-        let slack = SLACK[0] * (farthest - nearest) + SLACK[1] * farthest.abs().max(nearest.abs());
+        let range = farthest - nearest;
+        let slack = (SLACK[0] * range + SLACK[1] * farthest.abs().max(nearest.abs())).min(MOST_SLACK * range);
         Some(CellEffects { first: near.start as u32, count: near.len() as u32, slack: slack as f32 })
     }
 
