@@ -1,5 +1,6 @@
 //! What a cell has besides its volume: isosurfaces that may cut it, and light.
 
+use std::ops::Range;
 use std::sync::Arc;
 
 use glam::DVec3;
@@ -25,16 +26,32 @@ pub(crate) struct CellEffects {
 
 /// Isosurfaces whose values lie this share of a cell's own range, or this share of the field's, beyond the cell's range count as
 /// inside: rounding may put a scalar at its faces there. Too many cost a little time and nothing else.
-const MARGIN: [f64; 2] = [1e-4, 1e-6];
+const MARGIN: [f64; 2] = [1e-4, 4e-6];
 
-/// A scalar this share of a cell's range below a surface's value counts as on it: rounding of a face's scalars in steep cells (see
-/// `STEEP` in set-up), without which a surface that lies in faces of the mesh's boundary would be there in some pixels only. It moves
-/// surfaces by as much.
-const SIDE: f32 = 1e-5;
+/// How far below the value of a surface a scalar still counts as on it, as a share of the cell's range and of the field's: above
+/// what a scalar at a face rounds to in f32 (in the steepest cells, see `STEEP` in set-up, 1.5e-5 of the cell's range, rarely more
+/// than a tenth of that), far below what a picture shows.
+///
+/// It moves surfaces by this much and changes nothing else. Without it, a surface in the faces of cells, or in the mesh's
+/// boundary, would be there or not as each pixel rounds.
+const ON_SURFACE: [f64; 2] = [1e-5, 2e-6];
+
+/// The surfaces, by their place, that rays may cross in a cell of these scalars, lowest and highest, in the renderer's unit.
+pub(crate) fn surfaces_near(surfaces: &Isosurfaces, low: f64, high: f64) -> Range<usize> {
+    // The field's range is about one in the renderer's unit.
+    let margin = MARGIN[0] * (high - low) + MARGIN[1];
+    let surfaces = surfaces.as_slice();
+    let first = surfaces.partition_point(|surface| surface.value < low - margin);
+    first..first + surfaces[first..].partition_point(|surface| surface.value <= high + margin)
+}
 
 /// Depths are off by at most this share of a cell's own range of depths (a steep plane, see `STEEP` in set-up, has 2e-5 of it), and
 /// by this share of the depth itself (a few roundings).
 const SLACK: [f64; 2] = [1e-4, 1e-6];
+
+/// Most of it, as a share of a cell's own range of depths: seen from so far that f32 does not tell one cell's depth from the
+/// next one's, cells in a wrong order would take each other's sides. Then each has its own.
+const MOST_SLACK: f64 = 0.05;
 
 /// The isosurfaces and the light of a frame.
 #[derive(Debug)]
@@ -105,26 +122,23 @@ impl Effects {
             values.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), &v| (low.min(v), high.max(v)))
         };
         let (low, high) = bounds(scalars);
-        // The field's range is about one in the renderer's unit.
-        let margin = MARGIN[0] * (high - low) + MARGIN[1];
-        let surfaces = self.surfaces.as_slice();
-        let first = surfaces.partition_point(|surface| surface.value < low - margin);
-        let count = surfaces[first..].partition_point(|surface| surface.value <= high + margin);
-        if count == 0 && !self.light.is_some_and(|light| light.volume) {
+        let near = surfaces_near(&self.surfaces, low, high);
+        if near.is_empty() && !self.light.is_some_and(|light| light.volume) {
             return None;
         }
         let (nearest, farthest) = bounds(&depths);
-        let slack = SLACK[0] * (farthest - nearest) + SLACK[1] * farthest.abs().max(nearest.abs());
-        Some(CellEffects { first: first as u32, count: count as u32, slack: slack as f32 })
+        let range = farthest - nearest;
+        let slack = (SLACK[0] * range + SLACK[1] * farthest.abs().max(nearest.abs())).min(MOST_SLACK * range);
+        Some(CellEffects { first: near.start as u32, count: near.len() as u32, slack: slack as f32 })
     }
 
     /// The surfaces that may cut a cell, ascending, as it sees them.
     pub(crate) fn localize(&self, record: &CellRecord, cell: &CellEffects, local: &mut Vec<LocalSurface>) {
         let first = cell.first as usize;
         let [low, high] = record.scalar_range;
-        let tolerance = SIDE * (high - low);
+        let tolerance = ON_SURFACE[0] * f64::from(high - low) + ON_SURFACE[1];
         let to_local = |surface: &Isosurface| LocalSurface {
-            value: (surface.value - record.scalar_reference) as f32 - tolerance,
+            value: (surface.value - record.scalar_reference - tolerance) as f32,
             colors: [surface.color, surface.back_color].map(|color| color.map(|c| c as f32)),
             opacity: surface.opacity as f32,
             is_lit: surface.shading != SurfaceShading::None,

@@ -5,6 +5,7 @@ use tetrascope_integrate::{Isosurfaces, OpticalModel, Piece, TransferFunction};
 use tetrascope_mesh::{CellId, VertexId};
 
 use super::cell::{CellPieces, LocalPiece};
+use super::effects::surfaces_near;
 use super::record::CellRecord;
 
 /// A transfer function and what it makes of every cell; view independent.
@@ -94,10 +95,8 @@ impl Optics {
             .collect();
         let is_visible = |cell: &[VertexId; 4]| {
             let (low, high) = range(cell);
-            // A surface of the lowest value is crossed by rays that come from a neighbor with lower ones.
-            let surfaces = surfaces.as_slice();
-            let next = surfaces.partition_point(|surface| surface.value < low);
-            surfaces.get(next).is_some_and(|surface| surface.value <= high)
+            // Whatever may round to a surface: a ray that crosses it in a neighbor takes the side at the joint from here.
+            !surfaces_near(surfaces, low, high).is_empty()
                 || (model.needs_extinction() && transfer.max_extinction(low, high) > 0.0)
                 || (!model.is_dark_without_extinction() && transfer.max_emission(low, high) > 0.0)
         };
