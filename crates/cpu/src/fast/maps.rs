@@ -134,7 +134,11 @@ impl Maps {
 
 /// A pass of a map with what the light makes of it.
 #[inline(always)]
-fn shaded<S: Simd>(simd: S, mut rgb: [f32x8<S>; 3], opacity: f32x8<S>, intensities: Option<[f32x8<S>; 2]>) -> Light<S> {
+fn shaded<S: Simd>(
+    simd: S,
+    (mut rgb, opacity): ([f32x8<S>; 3], f32x8<S>),
+    intensities: Option<[f32x8<S>; 2]>,
+) -> Light<S> {
     if let Some([body, highlight]) = intensities {
         for channel in &mut rgb {
             *channel = channel.mul_add(body, highlight * opacity);
