@@ -52,12 +52,12 @@ fn view_of_row(is_perspective: bool, side: u32) -> View {
 const COLOR: &[[f64; 4]] = &[[-1.0, 0.9, 0.1, 0.2], [0.0, 0.1, 0.8, 0.3], [0.8, 0.4, 0.6, 0.9], [1.2, 1.0, 0.9, 0.1]];
 const EXTINCTION: &[[f64; 2]] = &[[-1.0, 0.0], [-0.4, 3.0], [0.0, 0.2], [0.5, 2.0], [1.0, 0.6]];
 
-/// Tolerance 2e-5: a slope of 7 over a range of 2, scalars in f32, six cells. A table's look-up has its coordinates in f32:
-/// 64 to 256 nodes over the range, so 1e-5 of the step between two entries, which differ by up to a tenth.
+/// Tolerance 5e-6: a slope of 7, scalars that are off by 1e-7, six cells. A table's look-up has its coordinates in f32, 256 nodes
+/// at most: off by 1e-5 of a step between two entries, which differ by up to a tenth.
 #[test]
 fn fast_renderer_has_every_method_of_the_reference() {
     for (integration, model) in along_rays() {
-        let mut worst = Worst::new(format!("{integration}, {model}, against the reference"), 2e-5);
+        let mut worst = Worst::new(format!("{integration}, {model}, against the reference"), 5e-6);
         for seed in 0..3 {
             let tets = row(seed + 7000);
             let mesh = tets.mesh();
@@ -83,9 +83,9 @@ fn constant_volume_is_the_closed_form() {
     let (rho, kappa) = (0.8, 0.6);
     for (integration, model) in along_rays() {
         // Rounding of f32; a table is linear between lengths of a 63rd of the longest: (0.8 l / 63)^2 / 8 a cell, of 10 cells.
-        // The two-dimensional one is linear from 0 on to the mean length.
+        // The two-dimensional one is linear in all lengths, right at 0 and at the mean one: some 0.01 a cell.
         let within = match integration {
-            Integration::Table2d => 5e-2,
+            Integration::Table2d => 0.12,
             Integration::Table3d => 1e-4,
             _ => 1e-5,
         };
@@ -142,8 +142,8 @@ fn cumulative_opacity_of_thin_shells_is_exact() {
     let tets = Tets::block(3, 7300);
     let mesh = tets.mesh();
     let shells = [[-0.51, 0.0], [-0.5, 60.0], [-0.49, 0.0], [0.19, 0.0], [0.2, 80.0], [0.21, 0.0]];
-    // A scalar is off by 1e-7 where the slope is 8000.
-    let mut worst = Worst::new("opacity of thin shells", 2e-4);
+    // A scalar is off by 1e-7 where the slope is 8000, which rising and falling sides nearly make up for.
+    let mut worst = Worst::new("opacity of thin shells", 2e-5);
     for is_perspective in [false, true] {
         let view = View::new(&random_camera(&mut Random::new(7300), DVec3::ZERO, 1.0, is_perspective), 40, 40).unwrap();
         let plan = plan(view, WHITE, &shells);

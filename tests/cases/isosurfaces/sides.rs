@@ -144,6 +144,7 @@ fn same_bits_in_any_order_and_number_of_threads() {
 #[test]
 fn eye_inside_the_mesh() {
     let mut worst = Worst::new("surface seen from inside", 1e-5);
+    let mut shown = 0;
     for seed in 0..4 {
         let tets = Tets::block(3, seed + 5200);
         let mesh = tets.mesh();
@@ -159,9 +160,10 @@ fn eye_inside_the_mesh() {
             let view = View::new(&camera, 50, 40).unwrap();
             let plan = surfaces_alone(view, vec![white(0.1, 0.5), white(-0.35, 0.5)]);
             let [fast, slow] = Renderer::EXACT.map(|renderer| renderer.draw(&mesh, &tets.scalars, &plan));
-            assert!(mean_opacity(&slow) > 0.03, "seed {seed}");
+            shown += usize::from(mean_opacity(&slow) > 0.1);
             worst.note(largest(&fast, &slow, 0..4), || format!("seed {seed}, field of view {fov_y}"));
         }
     }
+    assert!(shown >= 5, "surfaces show in {shown} of 8 pictures");
     worst.finish();
 }
