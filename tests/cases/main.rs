@@ -9,6 +9,10 @@
 mod golden;
 mod hostile;
 mod invariants;
+mod isosurfaces;
+mod light;
+mod methods;
+mod plan;
 mod real_meshes;
 mod references;
 mod saving;

@@ -50,7 +50,13 @@ const CASES: &[Case] = &[
         fast: Some(Fast { within: 5e-4, but_for: 0.09, at_most: 1.5e-2 }),
         leave_out: &[],
     },
-    Case { name: "bluntfin-isosurfaces", reference_within: 1e-5, fast: None, leave_out: &[] },
+    // Likewise: 3.4 %. The isosurfaces themselves are right in every pixel, as the opacity says.
+    Case {
+        name: "bluntfin-isosurfaces",
+        reference_within: 1e-5,
+        fast: Some(Fast { within: 5e-4, but_for: 0.035, at_most: 1.4e-1 }),
+        leave_out: &[],
+    },
     // Likewise: 0.1 %.
     Case {
         name: "combustor",

@@ -6,3 +6,4 @@ pub mod golden;
 pub mod meshes;
 pub mod pictures;
 pub mod shared;
+pub mod surfaces;

@@ -3,8 +3,8 @@
 use glam::{DQuat, DVec3};
 use tetrascope::mesh::TetMesh;
 use tetrascope::{
-    Backend, Camera, CpuRenderer, Integration, LinearImage, OpticalModel, Plan, Projection, Silent, TransferFunction,
-    View, reference,
+    Backend, Camera, CpuRenderer, Integration, LengthAxis, LinearImage, OpticalModel, Plan, Projection, Silent,
+    TableSettings, TransferFunction, View, reference,
 };
 
 use crate::meshes::Random;
@@ -31,6 +31,23 @@ impl Renderer {
         Self::Fast(Integration::Vertex),
     ];
 
+    /// The fast renderer's ways between the oldest and the exact: from the scalars at both ends of a segment, or by a table. Not
+    /// all of them have every optical model ([`Integration::covers`]), and tables know a chord only as well as they resolve it.
+    pub const BETWEEN: [Self; 5] = [
+        Self::Fast(Integration::Opacity2d),
+        Self::Fast(Integration::Partial),
+        Self::Fast(Integration::Cumulative),
+        Self::Fast(Integration::Table2d),
+        Self::Fast(Integration::Table3d),
+    ];
+
+    /// How it integrates.
+    pub fn integration(self) -> Integration {
+        match self {
+            Self::Fast(integration) | Self::Reference(integration) => integration,
+        }
+    }
+
     /// Whether it sorts per pixel, so that its colors can be trusted on any mesh.
     pub fn sorts_per_pixel(self) -> bool {
         matches!(self, Self::Reference(_))
@@ -56,6 +73,10 @@ impl Renderer {
         image
     }
 }
+
+/// Tables of a few thousand entries, where many are built and none has to be accurate.
+pub const SMALL_TABLES: Option<TableSettings> =
+    Some(TableSettings { scalars: 24, lengths: 12, length_axis: LengthAxis::Linear });
 
 /// A transfer function that colors nothing but one color.
 pub const WHITE: &[[f64; 4]] = &[[0.0, 1.0, 1.0, 1.0]];

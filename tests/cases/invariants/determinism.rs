@@ -5,7 +5,7 @@ use tetrascope::{
     CpuRenderer, Integration, OpticalModel, OrderMethod, Plan, Silent, TransferFunction, View, reference,
 };
 use tetrascope_tests::meshes::{Random, Tets};
-use tetrascope_tests::pictures::{Renderer, mean_opacity, plan, random_camera};
+use tetrascope_tests::pictures::{Renderer, SMALL_TABLES, mean_opacity, plan, random_camera};
 
 const EXTINCTION: &[[f64; 2]] = &[[-1.0, 0.0], [-0.2, 3.0], [0.1, 0.2], [1.0, 2.0]];
 const COLOR: &[[f64; 4]] = &[[-1.0, 0.9, 0.1, 0.2], [0.0, 0.1, 0.8, 0.3], [1.2, 1.0, 0.9, 0.1]];
@@ -14,7 +14,8 @@ const COLOR: &[[f64; 4]] = &[[-1.0, 0.9, 0.1, 0.2], [0.0, 0.1, 0.8, 0.3], [1.2, 
 fn case(is_perspective: bool) -> (Tets, Plan) {
     let tets = Tets::block(10, 1200);
     let camera = random_camera(&mut Random::new(3), DVec3::ZERO, 1.0, is_perspective);
-    (tets, plan(View::new(&camera, 131, 77).unwrap(), COLOR, EXTINCTION))
+    let plan = plan(View::new(&camera, 131, 77).unwrap(), COLOR, EXTINCTION);
+    (tets, Plan { tables: SMALL_TABLES, ..plan })
 }
 
 #[test]
@@ -22,7 +23,7 @@ fn threads_change_no_bit() {
     for is_perspective in [false, true] {
         let (tets, plan) = case(is_perspective);
         let mesh = tets.mesh();
-        for renderer in Renderer::ALL {
+        for renderer in Renderer::ALL.into_iter().chain(Renderer::BETWEEN) {
             let alone = renderer.draw(&mesh, &tets.scalars, &Plan { threads: Some(1), ..plan.clone() });
             assert!(mean_opacity(&alone) > 0.1);
             for threads in [None, Some(2), Some(3), Some(7)] {

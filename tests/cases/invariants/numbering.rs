@@ -1,8 +1,8 @@
 //! The order of a cell's vertices, of points and of cells in the file is nobody's business.
 
-use tetrascope::{Integration, View};
+use tetrascope::{Integration, Plan, View};
 use tetrascope_tests::meshes::{Random, Tets};
-use tetrascope_tests::pictures::{Renderer, Worst, largest, mean_opacity, plan, random_camera};
+use tetrascope_tests::pictures::{Renderer, SMALL_TABLES, Worst, largest, mean_opacity, plan, random_camera};
 
 use super::refinement::order_free;
 
@@ -33,8 +33,8 @@ fn order_of_vertices_in_a_cell_changes_no_bit() {
         let (a, b) = (tets.mesh(), permuted.mesh());
         for is_perspective in [false, true] {
             let view = View::new(&random_camera(&mut random, glam::DVec3::ZERO, 1.0, is_perspective), 45, 40).unwrap();
-            for renderer in Renderer::ALL {
-                let plan = plan(view, COLOR, EXTINCTION);
+            for renderer in Renderer::ALL.into_iter().chain(Renderer::BETWEEN) {
+                let plan = Plan { tables: SMALL_TABLES, ..plan(view, COLOR, EXTINCTION) };
                 let (one, other) = (renderer.draw(&a, &tets.scalars, &plan), renderer.draw(&b, &tets.scalars, &plan));
                 assert!(mean_opacity(&one) > 0.1);
                 assert_eq!(one, other, "seed {seed}, {renderer:?}");
@@ -61,8 +61,11 @@ fn order_of_points_and_cells_changes_nothing() {
         for is_perspective in [false, true] {
             let view = View::new(&random_camera(&mut random, glam::DVec3::ZERO, 1.0, is_perspective), 40, 40).unwrap();
             for (plan, mut renderers) in order_free(view) {
+                let plan = Plan { tables: SMALL_TABLES, ..plan };
                 if renderers.len() == 2 {
                     renderers.extend([Renderer::Fast(Integration::Average), Renderer::Reference(Integration::Average)]);
+                    renderers.extend(Renderer::BETWEEN);
+                    renderers.retain(|renderer| renderer.integration().covers(plan.model));
                 }
                 for renderer in renderers {
                     let one = renderer.draw(&a, &tets.scalars, &plan);
