@@ -104,8 +104,9 @@ fn flat_and_smooth_differ_where_the_field_is_curved() {
         })
         .into();
     for [fast, slow] in &pictures {
-        // Where a ray leaves a cell right at the surface, the one or the other cell's normal counts.
-        let found = difference(fast, slow, 2e-5, &[]);
+        // Where a ray leaves a cell right at the surface, the one or the other cell's normal counts. Elsewhere the fast renderer's
+        // surface lies 1e-5 of a cell's range beside, and what curvature makes of that is little more.
+        let found = difference(fast, slow, 5e-5, &[]);
         println!("shaded surface: {found:?}");
         assert!(found.beyond <= 3, "{found:?}");
     }
