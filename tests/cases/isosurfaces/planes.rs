@@ -189,7 +189,7 @@ fn plane_from_far_away() {
         for distance in [1e2, 1e3, 1e4, 1e5] {
             for height in heights(1.0, 0.0) {
                 let away = DVec3::new(0.3, -0.4, 1.0).normalize();
-                let projection = Projection::Perspective { fov_y: 2.0 * (3.2 / distance as f64).atan() };
+                let projection = Projection::Perspective { fov_y: 2.0 * (3.2_f64 / distance).atan() };
                 let view = view(DVec3::splat(2.0) + away * distance, DVec3::splat(2.0), DVec3::Y, projection, 40);
                 check(&mesh, &scalars, view, height, bounds, &format!("{name} from {distance:e}"), &mut worst);
             }

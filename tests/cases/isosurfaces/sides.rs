@@ -56,7 +56,6 @@ fn opaque_surface_hides_what_is_behind() {
     };
     for renderer in Renderer::EXACT {
         let draw = |color| renderer.draw(&mesh, &scalars, &inside_out(color));
-        // The fast renderer draws some cells in a wrong order; these are the same ones in both pictures, but for those behind.
         let center = |image: &tetrascope::LinearImage| image.pixel(30, 30);
         let (one, other) = (draw(inner_color), draw(other_color));
         assert!((center(&one)[3] - 1.0).abs() < 1e-6);
@@ -64,7 +63,8 @@ fn opaque_surface_hides_what_is_behind() {
             one.pixels().iter().zip(other.pixels()).filter(|(p, q)| (0..4).any(|c| (p[c] - q[c]).abs() > 1e-5));
         let count = differing.count();
         println!("hidden, {renderer:?}: {count} pixels differ");
-        let allowed = if renderer.sorts_per_pixel() { 0 } else { 36 };
+        // Where centroids put a cell behind the surface before those in front of it, it shows.
+        let allowed = if renderer.sorts_per_pixel() { 0 } else { 4 };
         assert!(count <= allowed, "{renderer:?}: {count} pixels show what is hidden");
     }
 }

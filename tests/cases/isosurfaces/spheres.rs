@@ -65,7 +65,7 @@ fn sphere_is_two_layers_and_no_stray_pixel() {
     }
 }
 
-/// Rays that graze a surface in a cell of a wrong place in the order: 1 pixel of 7200 at most.
+/// A ray that grazes a surface, in cells of a wrong order, may count it otherwise: 2 pixels of 7200 at most.
 #[test]
 fn surfaces_of_chance_agree_with_the_reference() {
     for seed in 0..6 {
@@ -143,7 +143,7 @@ fn maps_leave_no_gap() {
                 let found = difference(&fast, &slow, 1.0 / 255.0, &[]);
                 println!("smooth map, {integration}, from {distance}, opacity {opacity}: {} pixels", found.beyond);
                 // Along the outline, of some 150 pixels.
-                assert!(found.beyond <= 30, "{integration} from {distance}: {found:?}");
+                assert!(found.beyond <= 8, "{integration} from {distance}: {found:?}");
                 let inside = |i: usize| {
                     let ray = ray_of(&view, i);
                     ray.origin.cross(ray.direction.normalize()).length() < 0.56
@@ -188,6 +188,37 @@ fn stopped_in_the_table() {
             assert!(off < 1e-6, "{off}");
         } else {
             assert!((0.001..0.3).contains(&off), "{off}");
+        }
+    }
+}
+
+/// Points right beside faces, edges and corners of cells, and cells that shrink by a factor of a million towards a corner.
+#[test]
+fn slivers_and_graded_cells_lose_no_surface() {
+    let mut random = Random::new(5800);
+    for (seed, height) in [1e-3, 1e-6, 1e-9].into_iter().enumerate() {
+        let mut tets = Tets::block(2, 5801 + seed as u64);
+        for _ in 0..12 {
+            for shares in [[height, 0.4, 0.3, 0.3 - height], [height, height, 0.4, 0.6 - 2.0 * height]] {
+                let cell = tets.cells[(random.unit() * tets.cells.len() as f64) as usize];
+                tets.split(&cell, &shares);
+            }
+        }
+        for _ in 0..20 {
+            let neighbor =
+                tets.cells.iter().find(|cell| cell.contains(&0)).and_then(|cell| cell.iter().find(|p| **p != 0));
+            tets.split(&[0, *neighbor.unwrap()], &[0.5, 0.5]);
+        }
+        let made = TetMesh::from_tetrahedra(&tets.points, &tets.cells).unwrap();
+        for is_perspective in [false, true] {
+            let camera = random_camera(&mut random, DVec3::ZERO, 1.0, is_perspective);
+            let view = View::new(&camera, 70, 60).unwrap();
+            let plan = surfaces_alone(view, vec![white(0.1, 0.4), white(-0.3, 0.4)]);
+            let [fast, slow] = Renderer::EXACT.map(|renderer| renderer.draw(&made.mesh, &tets.scalars, &plan));
+            assert!(mean_opacity(&slow) > 0.03);
+            let count = wrong(&fast, &slow);
+            println!("slivers of {height:e}, perspective {is_perspective}: {count} pixels");
+            assert!(count <= 4, "height {height:e}, perspective {is_perspective}: {count} pixels of 4200");
         }
     }
 }
