@@ -14,8 +14,8 @@ use glam::DVec3;
 use tetrascope::integrate::{Isosurface, Isosurfaces, Phong, SurfaceShading};
 use tetrascope::scene::{IsosurfaceMethod, IsosurfacePlan, Lighting, Mixing, defaults};
 use tetrascope::{
-    Camera, Counts, CpuRenderer, Integration, OpticalModel, Plan, Projection, Silent, Stage, TransferFunction, View,
-    Volume, VolumeField,
+    Camera, Counts, CpuRenderer, Integration, OpticalModel, OrderMethod, Plan, Projection, Silent, Stage,
+    TransferFunction, View, Volume, VolumeField,
 };
 
 use crate::Failure;
@@ -37,6 +37,9 @@ pub(crate) struct Args {
     /// Only the settings whose names contain this, such as "exact".
     #[arg(long, default_value = "")]
     only: String,
+    /// Visibility order.
+    #[arg(long, default_value = "mpvo")]
+    order: OrderMethod,
     /// Frames of the turn, each 3 degrees on.
     #[arg(long, default_value_t = 30)]
     frames: u32,
@@ -102,6 +105,7 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     let renderer = CpuRenderer::new(field.on_mesh.mesh.as_ref(), &field.on_mesh.scalars)?;
     for frame in 0..args.frames + 2 {
         for setting in &mut settings {
+            setting.plan.order = args.order;
             setting.plan.view = View::new(&camera(3.0 * f64::from(frame)), args.size, args.size)?;
             let start = Instant::now();
             let rendered = pool.install(|| renderer.render(&setting.plan, &Silent))?;
@@ -188,9 +192,10 @@ fn default(field: &VolumeField<'_>) -> Result<TransferFunction, Failure> {
 
 fn print(volume: &Volume, args: &Args, threads: usize, settings: Vec<Setting>) {
     println!(
-        "{}: {} tetrahedra, {size} x {size}, centroid, {threads} threads, {} frames of 3 degrees",
+        "{}: {} tetrahedra, {size} x {size}, {}, {threads} threads, {} frames of 3 degrees",
         volume.source_name,
         volume.decomposition.mesh.tetrahedra().len(),
+        args.order,
         args.frames,
         size = args.size,
     );

@@ -125,7 +125,7 @@ pub(crate) struct RenderArgs {
     /// Spacing of the lengths in the table of table-3d: linear, logarithmic [default: linear]
     #[arg(long, value_name = "NAME", value_parser = length_axis, help_heading = "Method")]
     pub(crate) length_axis: Option<LengthAxisName>,
-    /// auto, or in which order cells are blended: centroid, bucket, none
+    /// auto, or in which order cells are blended: mpvo, centroid, bucket, none
     #[arg(long, value_name = "NAME", help_heading = "Method")]
     pub(crate) order: Option<Choice<OrderMethod>>,
     /// Number of slabs for --order bucket

@@ -140,13 +140,22 @@ impl Report {
                 counts.drawn, counts.cells, counts.transparent, counts.outside, counts.fragments
             ),
         );
+        if counts.cyclic > 0 {
+            self.say(
+                "cycles",
+                &format!(
+                    "{} tetrahedra hide one another in rings, where no order of whole cells is right; the back end reference draws them",
+                    counts.cyclic
+                ),
+            );
+        }
         if counts.crossings > 0 {
             self.say("crossings", &format!("{} of rays with isosurfaces", counts.crossings));
         }
         self.put(
             "counts",
             json!({ "cells": counts.cells, "drawn": counts.drawn, "transparent": counts.transparent,
-                "outside": counts.outside, "fragments": counts.fragments, "crossings": counts.crossings }),
+                "outside": counts.outside, "fragments": counts.fragments, "crossings": counts.crossings, "cyclic": counts.cyclic }),
         );
         self.timings.extend(rendered.timings.iter().map(|(stage, time)| (stage.to_string(), *time)));
     }

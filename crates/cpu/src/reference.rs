@@ -151,7 +151,16 @@ fn render_here(mesh: &TetMesh, scalars: &[f64], plan: &Plan, progress: &dyn Prog
     let cells = job.cells.len() as u64;
     let drawn = job.seen.len() as u64;
     let (fragments, crossings) = (job.fragments.into_inner(), job.crossings.into_inner());
-    let counts = Counts { cells, transparent: 0, outside: cells - drawn, drawn, careful: drawn, fragments, crossings };
+    let counts = Counts {
+        cells,
+        transparent: 0,
+        outside: cells - drawn,
+        drawn,
+        careful: drawn,
+        fragments,
+        crossings,
+        cyclic: 0,
+    };
     Ok(Rendered { image, timings: watch.finish(), counts })
 }
 

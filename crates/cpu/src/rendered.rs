@@ -33,6 +33,8 @@ pub struct Counts {
     pub fragments: u64,
     /// Isosurfaces met by rays.
     pub crossings: u64,
+    /// Tetrahedra of the mesh that hide one another in rings, where the order looks for them: no order of whole cells is right there.
+    pub cyclic: u64,
 }
 
 /// Measures stages one after another.

@@ -17,21 +17,26 @@ pub struct Centroid;
 
 impl VisibilityOrder for Centroid {
     fn order(&self, cells: Cells<'_>, viewpoint: Viewpoint, drawn: &[CellId]) -> Order {
-        let mut keyed: Vec<(u32, CellId)> = Vec::with_capacity(drawn.len());
-        match viewpoint {
-            Viewpoint::Eye(eye) => drawn
-                .par_iter()
-                .map(|&cell| (sortable_bits((cells.centroid(cell) - eye).length_squared() as f32), cell))
-                .collect_into_vec(&mut keyed),
-            Viewpoint::Direction(direction) => drawn
-                .par_iter()
-                .map(|&cell| (sortable_bits(depth_along(direction, &cells, cell) as f32), cell))
-                .collect_into_vec(&mut keyed),
-        }
-        sort_by_key(&mut keyed);
-        let front_to_back = keyed.into_iter().map(|(_, cell)| cell).collect();
-        Order { front_to_back, guarantee: Guarantee::Approximate }
+        let front_to_back = nearest_first(cells, viewpoint, drawn);
+        Order { front_to_back, guarantee: Guarantee::Approximate, cycles: Vec::new() }
     }
+}
+
+/// Cells by the distance of their centroids, or by their depth in a parallel view.
+pub(crate) fn nearest_first(cells: Cells<'_>, viewpoint: Viewpoint, drawn: &[CellId]) -> Vec<CellId> {
+    let mut keyed: Vec<(u32, CellId)> = Vec::with_capacity(drawn.len());
+    match viewpoint {
+        Viewpoint::Eye(eye) => drawn
+            .par_iter()
+            .map(|&cell| (sortable_bits((cells.centroid(cell) - eye).length_squared() as f32), cell))
+            .collect_into_vec(&mut keyed),
+        Viewpoint::Direction(direction) => drawn
+            .par_iter()
+            .map(|&cell| (sortable_bits(depth_along(direction, &cells, cell) as f32), cell))
+            .collect_into_vec(&mut keyed),
+    }
+    sort_by_key(&mut keyed);
+    keyed.into_iter().map(|(_, cell)| cell).collect()
 }
 
 fn depth_along(direction: DVec3, cells: &Cells<'_>, cell: CellId) -> f64 {

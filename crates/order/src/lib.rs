@@ -13,17 +13,23 @@
 //! let points = [DVec3::ZERO, DVec3::X, DVec3::Y, DVec3::Z, DVec3::splat(1.0)];
 //! let tetrahedra = [[0, 1, 2, 3].map(VertexId), [1, 2, 3, 4].map(VertexId)];
 //! let cells = Cells { positions: &points, tetrahedra: &tetrahedra };
-//! let order = OrderMethod::Centroid.make().order(cells, Viewpoint::Eye(DVec3::splat(9.0)), &[CellId(0), CellId(1)]);
+//! let order = OrderMethod::Mpvo.prepare(cells).order(cells, Viewpoint::Eye(DVec3::splat(9.0)), &[CellId(0), CellId(1)]);
 //! assert_eq!(order.front_to_back, [CellId(1), CellId(0)]);
 //! ```
 //!
-//! Limits: the methods here ([`Unordered`], [`Bucket`], [`Centroid`]) sort by one point of a cell and may be wrong for neighbors of
-//! different shape; they say so in their guarantee. The crate knows no color and no pixel.
+//! [`Mpvo`] is right for all neighbors. [`Bucket`] and [`Centroid`] sort by one point of a cell and may be wrong for neighbors of
+//! different shape; they say so in their guarantee. [`misordered_faces`] counts how often any of them is.
+//!
+//! Limits: cells with a gap of the mesh between them are ordered by their centroids; rings of cells are found and reported, not
+//! drawn rightly. The crate knows no color and no pixel.
 
 mod bucket;
 mod centroid;
+mod cycles;
 mod method;
+mod mpvo;
 mod radix;
+mod sides;
 mod unordered;
 
 use glam::DVec3;
@@ -33,6 +39,7 @@ use tetrascope_view::Viewpoint;
 pub use bucket::Bucket;
 pub use centroid::Centroid;
 pub use method::{OrderMethod, UnknownOrder};
+pub use mpvo::{Mpvo, misordered_faces};
 pub use radix::{sort_by_key, sortable_bits};
 pub use unordered::Unordered;
 
@@ -67,6 +74,9 @@ pub struct Order {
     pub front_to_back: Vec<CellId>,
     /// How far the permutation can be trusted.
     pub guarantee: Guarantee,
+    /// Rings of cells that hide one another, among all cells of the mesh, where the method looks for them: no order of whole cells is
+    /// right there. Each as its cells, ascending.
+    pub cycles: Vec<Vec<CellId>>,
 }
 
 /// How far an order can be trusted.
@@ -77,12 +87,15 @@ pub enum Guarantee {
     Unsorted,
     /// Cells are sorted by one number that approximates their depth: neighbors may come in the wrong order, and nothing says where.
     Approximate,
+    /// Of two cells that share a face the nearer one comes first, but for the cells in [`Order::cycles`]: right where the mesh is
+    /// convex. Across gaps of the mesh it is a guess.
+    Faces,
 }
 
 /// A way to sort cells by visibility.
 ///
 /// Shared between threads; what a method learns of a mesh once it keeps to itself.
-pub trait VisibilityOrder: Send + Sync {
+pub trait VisibilityOrder: std::fmt::Debug + Send + Sync {
     /// The `drawn` cells from front to back, seen from `viewpoint`.
     ///
     /// Deterministic: the same arguments give the same permutation, whatever the number of threads. Cells that the method
@@ -90,5 +103,7 @@ pub trait VisibilityOrder: Send + Sync {
     fn order(&self, cells: Cells<'_>, viewpoint: Viewpoint, drawn: &[CellId]) -> Order;
 }
 
+#[cfg(test)]
+mod mpvo_tests;
 #[cfg(test)]
 mod tests;

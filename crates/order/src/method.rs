@@ -3,7 +3,7 @@
 use std::fmt;
 use std::str::FromStr;
 
-use crate::{Bucket, Centroid, Unordered, VisibilityOrder};
+use crate::{Bucket, Cells, Centroid, Mpvo, Unordered, VisibilityOrder};
 
 /// A visibility order by the name that scene files use.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -18,21 +18,24 @@ pub enum OrderMethod {
     },
     /// [`Centroid`].
     Centroid,
+    /// [`Mpvo`].
+    Mpvo,
 }
 
 impl OrderMethod {
     /// The names of all methods that are here.
-    pub const NAMES: &'static [&'static str] = &["none", "bucket", "centroid"];
+    pub const NAMES: &'static [&'static str] = &["none", "bucket", "centroid", "mpvo"];
 
     /// Names of the scene file's specification whose methods are not here yet.
-    const PLANNED: &'static [&'static str] = &["power", "mpvo", "bsp-xmpvo", "k-buffer", "per-pixel"];
+    const PLANNED: &'static [&'static str] = &["power", "bsp-xmpvo", "k-buffer", "per-pixel"];
 
-    /// The method itself.
-    pub fn make(self) -> Box<dyn VisibilityOrder> {
+    /// The method, ready for a mesh: what it has to know of the mesh it learns here, once.
+    pub fn prepare(self, cells: Cells<'_>) -> Box<dyn VisibilityOrder> {
         match self {
             Self::None => Box::new(Unordered),
             Self::Bucket { slabs } => Box::new(Bucket { slabs }),
             Self::Centroid => Box::new(Centroid),
+            Self::Mpvo => Box::new(Mpvo::new(cells)),
         }
     }
 }
@@ -43,6 +46,7 @@ impl fmt::Display for OrderMethod {
             Self::None => "none",
             Self::Bucket { .. } => "bucket",
             Self::Centroid => "centroid",
+            Self::Mpvo => "mpvo",
         })
     }
 }
@@ -73,6 +77,7 @@ impl FromStr for OrderMethod {
             "none" => Ok(Self::None),
             "bucket" => Ok(Self::Bucket { slabs: Bucket::DEFAULT_SLABS }),
             "centroid" => Ok(Self::Centroid),
+            "mpvo" => Ok(Self::Mpvo),
             _ if Self::PLANNED.contains(&name) => Err(UnknownOrder::NotYet { name: name.to_owned() }),
             _ => Err(UnknownOrder::NoSuchName { name: name.to_owned() }),
         }

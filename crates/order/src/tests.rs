@@ -19,8 +19,13 @@ fn all(n: usize) -> Vec<CellId> {
     (0..n as u32).map(CellId).collect()
 }
 
-const METHODS: [OrderMethod; 4] =
-    [OrderMethod::None, OrderMethod::Bucket { slabs: 20 }, OrderMethod::Bucket { slabs: 1 }, OrderMethod::Centroid];
+const METHODS: [OrderMethod; 5] = [
+    OrderMethod::None,
+    OrderMethod::Bucket { slabs: 20 },
+    OrderMethod::Bucket { slabs: 1 },
+    OrderMethod::Centroid,
+    OrderMethod::Mpvo,
+];
 
 fn place() -> impl Strategy<Value = DVec3> {
     (-1.0..1.0, -1.0..1.0, -1.0..1.0_f64).prop_map(DVec3::from)
@@ -35,7 +40,7 @@ proptest! {
         // Every second cell is drawn.
         let drawn: Vec<_> = all(places.len()).into_iter().step_by(2).collect();
         for method in METHODS {
-            let mut ordered = method.make().order(cells, view, &drawn).front_to_back;
+            let mut ordered = method.prepare(cells).order(cells, view, &drawn).front_to_back;
             ordered.sort();
             prop_assert_eq!(&ordered, &drawn);
         }
@@ -94,7 +99,7 @@ fn all_cells_at_one_depth_stay_as_they_come() {
     let (points, tetrahedra) = row(&[DVec3::ZERO; 5]);
     let cells = Cells { positions: &points, tetrahedra: &tetrahedra };
     for method in METHODS {
-        let order = method.make().order(cells, Viewpoint::Direction(DVec3::Z), &all(5));
+        let order = method.prepare(cells).order(cells, Viewpoint::Direction(DVec3::Z), &all(5));
         assert_eq!(order.front_to_back, all(5), "{method}");
     }
 }
@@ -104,7 +109,7 @@ fn names_round_trip_and_unknown_ones_say_what_there_is() {
     for &name in OrderMethod::NAMES {
         assert_eq!(name.parse::<OrderMethod>().unwrap().to_string(), name);
     }
-    let message = "mpvo".parse::<OrderMethod>().unwrap_err().to_string();
+    let message = "power".parse::<OrderMethod>().unwrap_err().to_string();
     assert!(message.contains("not in this version") && message.contains("centroid"), "{message}");
     let message = "depth".parse::<OrderMethod>().unwrap_err().to_string();
     assert!(message.contains("no visibility order") && message.contains("bucket"), "{message}");

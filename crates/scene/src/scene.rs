@@ -115,9 +115,10 @@ impl Scene {
             }
             Some(asked) => (asked, "asked for"),
             None if commutes => (OrderMethod::None, "this optical model gives the same sum in any order"),
-            None => {
-                (OrderMethod::Centroid, "distance of the cells' centers; may be wrong between cells of unlike shape")
-            }
+            None => (
+                OrderMethod::Mpvo,
+                "neighbors by the planes between them; across gaps of the mesh the nearer center first",
+            ),
         };
         let choice = match order {
             OrderMethod::Bucket { slabs } => format!("bucket, {slabs} slabs"),

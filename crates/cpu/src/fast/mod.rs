@@ -36,7 +36,7 @@ use rayon::prelude::*;
 
 use tetrascope_integrate::{Integration, Isosurfaces};
 use tetrascope_mesh::{CellId, ChordLengths, Frame, TetMesh, VertexId, point_gradients, segment_lengths};
-use tetrascope_order::Cells;
+use tetrascope_order::{Cells, OrderMethod, VisibilityOrder};
 use tetrascope_scene::{Gradients, Plan, Progress, Stage};
 use tetrascope_view::LinearImage;
 
@@ -88,12 +88,21 @@ pub struct CpuRenderer {
     /// Likewise the tables of integrations that have one, and the maps of isosurfaces.
     lookups: Mutex<Vec<Arc<Lookup>>>,
     maps: Mutex<Vec<Arc<Maps>>>,
+    /// Visibility orders with what they learned of the mesh.
+    orders: Mutex<Vec<Arc<Prepared>>>,
     /// Lengths of segments, only if a table asked for them; `None` if no cell has a volume.
     lengths: OnceLock<Option<ChordLengths>>,
     /// One a point, along the mesh's axes; only if a plan asked for them.
     gradients: OnceLock<Vec<DVec3>>,
     /// Memory of the last frame: asking the system for it anew costs a fifth of a frame.
     scratch: Mutex<Option<Scratch>>,
+}
+
+/// A visibility order that knows the mesh.
+#[derive(Debug)]
+struct Prepared {
+    method: OrderMethod,
+    order: Box<dyn VisibilityOrder>,
 }
 
 /// What a frame fills and the next one fills again.
@@ -136,6 +145,7 @@ impl CpuRenderer {
             optics: Mutex::new(Vec::new()),
             lookups: Mutex::new(Vec::new()),
             maps: Mutex::new(Vec::new()),
+            orders: Mutex::new(Vec::new()),
             lengths: OnceLock::new(),
             gradients: OnceLock::new(),
             scratch: Mutex::new(None),
@@ -185,7 +195,7 @@ impl CpuRenderer {
         let seen: Vec<CellId> =
             optics.visible().par_iter().copied().filter(|cell| outlines[cell.index()] != NOWHERE).collect();
         let cells = Cells { positions: &self.positions, tetrahedra: &self.tetrahedra };
-        let order = plan.order.make().order(cells, view.viewpoint(), &seen);
+        let order = self.order(plan.order, cells).order.order(cells, view.viewpoint(), &seen);
         watch.lap(Stage::Order);
 
         let with_fans = plan.integration == Integration::Vertex;
@@ -252,9 +262,16 @@ impl CpuRenderer {
             careful: records.iter().map(|r| r.careful.len() as u64).sum(),
             fragments: fragments.into_inner(),
             crossings: crossings.into_inner(),
+            cyclic: order.cycles.iter().map(|ring| ring.len() as u64).sum(),
         };
         *self.scratch.lock().unwrap_or_else(PoisonError::into_inner) = Some(scratch);
         Ok(Rendered { image, timings: watch.finish(), counts })
+    }
+
+    /// A visibility order, made ready for the mesh when first asked for.
+    fn order(&self, method: OrderMethod, cells: Cells<'_>) -> Arc<Prepared> {
+        recall(&self.orders, |order| order.method == method)
+            .unwrap_or_else(|| remember(&self.orders, Prepared { method, order: method.prepare(cells) }))
     }
 
     /// The isosurfaces that are to be seen, in the renderer's unit.

@@ -1,0 +1,144 @@
+//! On which side of each face its cell and the eye lie: the arrows of the visibility relation.
+
+use glam::DVec3;
+use rayon::prelude::*;
+use robust::Coord3D;
+use tetrascope_mesh::{CellId, FaceAdjacency, VertexId};
+use tetrascope_view::Viewpoint;
+
+use crate::Cells;
+
+/// For every cell, which of its faces it shares with a cell on the other side, and on which side of them it lies.
+///
+/// Bit `i` is set in the low half if the cell lies on the positive side of the face opposite corner `i`, and in the high half if the
+/// face may carry an arrow. Faces are taken with their points in ascending order, so that both cells of a face ask about the
+/// same plane and hear the same answer.
+#[derive(Clone, Debug)]
+pub(crate) struct FaceSides(Vec<u8>);
+
+impl FaceSides {
+    /// Exact, whatever the cells' orientation.
+    ///
+    /// A cell without volume takes the side that its neighbor leaves to it; where both are flat, or where both lie on
+    /// one side, since the mesh is folded there, the face carries no arrow.
+    pub(crate) fn new(cells: Cells<'_>, adjacency: &FaceAdjacency) -> Self {
+        let table = adjacency.table();
+        let side = |cell: usize, corner: usize| {
+            let tetrahedron = cells.tetrahedra[cell];
+            let apex = cells.positions[tetrahedron[corner].index()];
+            orientation(face(cells, tetrahedron, corner), apex)
+        };
+        let sides = (0..cells.tetrahedra.len())
+            .into_par_iter()
+            .map(|cell| {
+                let mut bits = 0;
+                for corner in 0..4 {
+                    let neighbor = table[cell][corner];
+                    if neighbor == FaceAdjacency::NONE {
+                        continue;
+                    }
+                    // The two may share more than one face: then it is that of the same points.
+                    let own = face_ids(cells.tetrahedra[cell], corner);
+                    let other = (0..4).find(|&i| face_ids(cells.tetrahedra[neighbor as usize], i) == own);
+                    let theirs = other.and_then(|other| side(neighbor as usize, other));
+                    let is_positive = match (side(cell, corner), theirs) {
+                        (Some(mine), Some(theirs)) if mine != theirs => mine,
+                        (Some(mine), None) => mine,
+                        (None, Some(theirs)) => !theirs,
+                        _ => continue,
+                    };
+                    bits |= 0x10 << corner | u8::from(is_positive) << corner;
+                }
+                bits
+            })
+            .collect();
+        Self(sides)
+    }
+
+    /// For every cell the corners whose opposite neighbor lies in front of it, as bits.
+    pub(crate) fn nearer_neighbors(&self, cells: Cells<'_>, viewpoint: Viewpoint) -> Vec<u8> {
+        self.0
+            .par_iter()
+            .zip(cells.tetrahedra)
+            .map(|(&bits, &tetrahedron)| {
+                let mut nearer = 0;
+                for corner in 0..4 {
+                    if bits & 0x10 << corner == 0 {
+                        continue;
+                    }
+                    // The cell on the eye's side of the face is the nearer one; seen edge-on, neither.
+                    if let Some(eye_is_positive) = eye_side(face(cells, tetrahedron, corner), viewpoint) {
+                        nearer |= u8::from(eye_is_positive != (bits >> corner & 1 == 1)) << corner;
+                    }
+                }
+                nearer
+            })
+            .collect()
+    }
+
+    pub(crate) fn len(&self) -> usize {
+        self.0.len()
+    }
+}
+
+/// A face's points in the order in which the cell lists them.
+#[inline]
+fn corners_of(corner: usize) -> [usize; 3] {
+    [[1, 2, 3], [0, 2, 3], [0, 1, 3], [0, 1, 2]][corner]
+}
+
+/// A face's points, ascending.
+#[inline]
+fn face_ids(tetrahedron: [VertexId; 4], corner: usize) -> [VertexId; 3] {
+    let mut points = corners_of(corner).map(|i| tetrahedron[i]);
+    points.sort_unstable();
+    points
+}
+
+/// A face's points by ascending number, in space.
+#[inline]
+fn face(cells: Cells<'_>, tetrahedron: [VertexId; 4], corner: usize) -> [DVec3; 3] {
+    face_ids(tetrahedron, corner).map(|v| cells.positions[v.index()])
+}
+
+/// Whether a point lies on the positive side of three others' plane; `None` on it. Exact.
+fn orientation([p, q, r]: [DVec3; 3], point: DVec3) -> Option<bool> {
+    let determinant = robust::orient3d(coord(p), coord(q), coord(r), coord(point));
+    (determinant != 0.0).then_some(determinant > 0.0)
+}
+
+/// Whether the eye lies on the positive side of a face's plane; `None` where the face is seen edge-on.
+///
+/// Exact from a point. Along a direction, a face that is edge-on to within the rounding of the determinant counts as edge-on:
+/// nothing wider than that rounding is seen of one of its cells behind the other.
+#[inline]
+fn eye_side(face: [DVec3; 3], viewpoint: Viewpoint) -> Option<bool> {
+    match viewpoint {
+        Viewpoint::Eye(eye) => orientation(face, eye),
+        Viewpoint::Direction(direction) => {
+            let [p, q, r] = face;
+            let (u, v) = (q - p, r - p);
+            let normal = u.cross(v);
+            let determinant = normal.dot(direction);
+            let magnitude = DVec3::new(
+                (u.y * v.z).abs() + (u.z * v.y).abs(),
+                (u.z * v.x).abs() + (u.x * v.z).abs(),
+                (u.x * v.y).abs() + (u.y * v.x).abs(),
+            )
+            .dot(direction.abs());
+            // Shewchuk's bound for orient3d. The eye lies infinitely far against the direction; a point far against the normal is on
+            // the positive side of `robust::orient3d`.
+            (determinant.abs() > 8e-16 * magnitude).then_some(determinant > 0.0)
+        }
+    }
+}
+
+fn coord(p: DVec3) -> Coord3D<f64> {
+    Coord3D { x: p.x, y: p.y, z: p.z }
+}
+
+/// Of which cells a set of corner bits speaks.
+#[inline]
+pub(crate) fn neighbor(table: &[[u32; 4]], cell: CellId, corner: u32) -> CellId {
+    CellId(table[cell.index()][corner as usize])
+}
