@@ -177,7 +177,7 @@ fn wrong_usage_is_two() {
     has(&run.bad(2, &["render", "mesh.vtu", "--isosurface", "1", "--shading", "phong"]), &["none, flat and smooth"]);
     has(&run.bad(2, &["render", "mesh.vtu", "--table-size", "1"]), &["2..=1024"]);
     has(&run.bad(2, &["render", "mesh.vtu", "--length-axis", "cubic"]), &["linear and logarithmic"]);
-    has(&run.bad(2, &["render", "mesh.vtu", "--order", "mpvo"]), &["not in this version"]);
+    has(&run.bad(2, &["render", "mesh.vtu", "--order", "power"]), &["not in this version"]);
     has(&run.bad(2, &["render", "mesh.vtu", "--backend", "gpu"]), &["cpu and reference"]);
     has(&run.bad(2, &["render", "mesh.vtu", "--fov", "30", "--orthographic", "2"]), &["cannot be used with"]);
     has(&run.bad(2, &["render", "mesh.vtu", "--threads", "0"]), &["0"]);

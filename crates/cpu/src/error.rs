@@ -1,7 +1,7 @@
 //! Why a picture was not drawn.
 
 use tetrascope_integrate::Integration;
-use tetrascope_scene::{Gradients, IsosurfaceMethod, Mixing, Plan};
+use tetrascope_scene::{IsosurfaceMethod, Mixing, Plan};
 
 /// Why a picture was not drawn.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -36,6 +36,9 @@ pub enum RenderError {
     /// Isosurfaces have no possible map.
     #[error(transparent)]
     Isosurfaces(#[from] tetrascope_integrate::IsosurfaceError),
+    /// The light has a coefficient that is none.
+    #[error(transparent)]
+    Light(#[from] tetrascope_integrate::PhongError),
     /// A cell can be cut at isosurfaces along a ray, not as a fan of triangles.
     #[error(
         "\"vertex\" integrates a fan of triangles, which cannot be cut at isosurfaces; use another integration, or isosurfaces by \"map-smooth\""
@@ -49,12 +52,11 @@ pub enum RenderError {
         /// The integration.
         integration: Integration,
     },
-    /// Transparent isosurfaces are part of the table's light: light from outside does not reach them there, and a table that is
-    /// linear in the length would scale their opacity with it.
+    /// Behind a transparent isosurface the integral goes on.
     #[error(
-        "transparent isosurfaces go into a table only with \"table-3d\" and without light; use isosurfaces by \"exact\" or \"map-smooth\""
+        "only opaque isosurfaces end an integral in a table; use isosurfaces by \"exact\", which go with every table, or \"map-smooth\""
     )]
-    TransparentInTable,
+    StoppedByTransparent,
     /// The operating system gave no threads.
     #[error("{threads} threads could not be started: {problem}; ask for fewer")]
     Threads {
@@ -69,17 +71,17 @@ pub enum RenderError {
 pub(crate) fn check_methods(plan: &Plan) -> Result<(), RenderError> {
     let integration = plan.integration;
     integration.check(plan.model)?;
+    if let Some(lighting) = &plan.lighting {
+        lighting.phong.check()?;
+    }
     let Some(isosurfaces) = &plan.isosurfaces else { return Ok(()) };
     match isosurfaces.method {
         IsosurfaceMethod::Exact if integration.needs_fan() => Err(RenderError::FanWithIsosurfaces),
         IsosurfaceMethod::Map { mixing: Mixing::Stopped, .. } if !integration.needs_table() => {
             Err(RenderError::NoTableToStop { integration })
         }
-        IsosurfaceMethod::Map { mixing: Mixing::Stopped, .. }
-            if !isosurfaces.surfaces.visible().are_opaque()
-                && (integration == Integration::Table2d || plan.gradients() != Gradients::None) =>
-        {
-            Err(RenderError::TransparentInTable)
+        IsosurfaceMethod::Map { mixing: Mixing::Stopped, .. } if !isosurfaces.surfaces.visible().are_opaque() => {
+            Err(RenderError::StoppedByTransparent)
         }
         _ => Ok(()),
     }

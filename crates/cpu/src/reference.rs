@@ -82,9 +82,10 @@ fn render_here(mesh: &TetMesh, scalars: &[f64], plan: &Plan, progress: &dyn Prog
     }
     let needed = plan.gradients();
     let lit = plan.lighting.as_ref().filter(|_| needed != Gradients::None);
+    let surfaces = plan.isosurfaces.as_ref().map(|isosurfaces| isosurfaces.surfaces.visible());
     let composer = RayComposer {
         integrator,
-        surfaces: plan.isosurfaces.as_ref().map(|isosurfaces| Surfaces::new(&isosurfaces.surfaces, mesh, scalars)),
+        surfaces: surfaces.as_ref().map(|surfaces| Surfaces::new(surfaces, mesh, scalars)),
         light: lit.map(|lighting| Light::new(lighting, needed, mesh, scalars)),
     };
     watch.lap(Stage::Prepare);

@@ -69,7 +69,8 @@ fn sample(domain: &TableDomain, widest: f64, index: u32) -> Segment {
     let [first, second, third] = [0.819_172_513, 0.671_043_607, 0.549_700_478].map(fraction);
     let second = if widest < 1.0 { (first + widest * (2.0 * second - 1.0)).clamp(0.0, 1.0) } else { second };
     let [lo, hi] = domain.scalars;
-    let scalar = |share: f64| (lo + (hi - lo) * share).clamp(lo, hi);
+    // Not `clamp`, which panics where the range descends.
+    let scalar = |share: f64| (lo + (hi - lo) * share).max(lo).min(hi);
     let chord_length = domain.max_length * SHORTEST.powf(1.0 - third);
     Segment { scalar_front: scalar(first), scalar_back: scalar(second), chord_length }
 }

@@ -89,19 +89,29 @@ impl OpacityTable {
     ///
     /// Beyond the range the error is that of the opacity at its end.
     pub fn largest_error(&self) -> f64 {
+        self.errors().fold(0.0, f64::max)
+    }
+
+    /// The root mean square of the error at the same places.
+    pub fn root_mean_square_error(&self) -> f64 {
+        let (squares, count) = self.errors().fold((0.0, 0_u64), |(sum, count), error| (sum + error * error, count + 1));
+        if count == 0 { 0.0 } else { (squares / count as f64).sqrt() }
+    }
+
+    fn errors(&self) -> impl Iterator<Item = f64> {
         const STEPS: u32 = 8;
-        let rows = self.entries.len() / self.lengths;
+        let (rows, columns) = (self.entries.len() / self.lengths, self.lengths);
         let at = |index: usize, step: u32, axis: usize| {
             (index as f64 + f64::from(step) / f64::from(STEPS)) / self.scale[axis]
         };
-        let mut worst = 0.0f64;
-        for (row, column) in (0..rows - 1).flat_map(|row| (0..self.lengths - 1).map(move |column| (row, column))) {
-            for (down, right) in (1..STEPS).flat_map(|down| (1..STEPS).map(move |right| (down, right))) {
+        let cells = (0..rows - 1).flat_map(move |row| (0..columns - 1).map(move |column| (row, column)));
+        let steps = || (1..STEPS).flat_map(|down| (1..STEPS).map(move |right| (down, right)));
+        cells.flat_map(move |(row, column)| {
+            steps().map(move |(down, right)| {
                 let (extinction, length) = (at(row, down, 0), at(column, right, 1));
                 let known = -(-(extinction * length)).exp_m1();
-                worst = worst.max((self.look_up(extinction, length) - known).abs());
-            }
-        }
-        worst
+                (self.look_up(extinction, length) - known).abs()
+            })
+        })
     }
 }

@@ -8,7 +8,9 @@
 use std::sync::OnceLock;
 
 use crate::weights::{Weights, weights_f64};
-use crate::{OpticalModel, RgbaAssoc, Segment, TransferFunction, opacity_2d};
+use crate::{
+    Deviation, MethodError, OpticalModel, RgbaAssoc, Segment, TableDomain, TransferFunction, deviation, opacity_2d,
+};
 
 #[cfg(test)]
 #[path = "psi_table_tests.rs"]
@@ -75,6 +77,29 @@ impl PsiTable {
             }
         }
         Self { excess }
+    }
+
+    /// Its own error: the light of [`partial`] against [`crate::exact`], on segments whose extinction and color are linear,
+    /// as it takes them to be; see [`deviation()`].
+    ///
+    /// - `deepest`: largest optical depth of a segment; positive and finite
+    ///
+    /// # Errors
+    ///
+    /// [`MethodError::TableDomain`] for another depth.
+    pub fn deviation(&self, deepest: f64, samples: u32) -> Result<Deviation, MethodError> {
+        let transfer =
+            TransferFunction::new(&[[0.0, 0.0, 0.0, 0.0], [1.0, 1.0, 1.0, 1.0]], &[[0.0, 0.0], [1.0, deepest]])
+                .ok()
+                .filter(|_| deepest > 0.0)
+                .ok_or(MethodError::TableDomain {
+                    what: "optical depth",
+                    value: deepest,
+                    expected: "give a positive, finite number",
+                })?;
+        let domain = TableDomain { scalars: [0.0, 1.0], mean_length: 0.1, max_length: 1.0 };
+        let model = OpticalModel::DensityEmitter;
+        Ok(deviation(&transfer, model, &domain, 1.0, samples, |segment| partial(&transfer, model, segment)))
     }
 
     /// The mean transmittance of a segment, 0 to 1; exactly 1 without depth.

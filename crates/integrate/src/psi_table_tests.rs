@@ -160,3 +160,14 @@ proptest! {
         prop_assert!((known.rgb[1] - got.rgb[1]).abs() <= 0.5 * length * 1.3e-4 + 1e-13);
     }
 }
+
+#[test]
+fn the_table_knows_its_error() {
+    let table = PsiTable::shared();
+    let [thin, deep] = [1.0, 1e4].map(|deepest| table.deviation(deepest, 20_000).unwrap());
+    assert!(thin.largest < 2e-5 && thin.root_mean_square < thin.largest, "{thin:?}");
+    assert!(deep.largest > thin.largest && deep.largest < 2e-4, "{deep:?}");
+    for wrong in [0.0, -1.0, f64::NAN, f64::INFINITY] {
+        assert!(table.deviation(wrong, 10).is_err(), "{wrong}");
+    }
+}

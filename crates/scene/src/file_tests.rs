@@ -138,7 +138,7 @@ fn wrong_values_are_named_with_key_and_line() {
         ("quality", "length_axis", "\"cubic\"", "`linear` or `logarithmic`"),
         ("quality", "isosurfaces", "\"map\"", "`map-smooth`"),
         ("quality", "table_size", "64.5", "u32"),
-        ("quality", "order", "\"mpvo\"", "not in this version"),
+        ("quality", "order", "\"power\"", "not in this version"),
         ("quality", "backend", "\"gpu\"", "cpu and reference"),
         ("light", "direction", "\"sun\"", "headlight"),
         ("light", "direction", "[0, 1]", "headlight"),

@@ -65,7 +65,7 @@ impl Scene {
         let lighting = self.lighting(isosurfaces.as_ref())?;
         let mut decisions = Vec::new();
         let (integration, tables) = self.decide_integration(&mut decisions)?;
-        self.check_isosurface_method(integration, isosurfaces.as_ref(), lighting.as_ref())?;
+        self.check_isosurface_method(integration, isosurfaces.as_ref())?;
         self.decide_isosurfaces(isosurfaces.as_ref(), &mut decisions);
         let order = self.decide_order(isosurfaces.is_some(), &mut decisions)?;
         let plan = Plan {

@@ -246,15 +246,7 @@ fn methods_that_do_not_go_together_are_refused_with_a_way_out() {
         ),
         (
             quality(stopped, &[(1.0, 1.0, "flat"), (2.0, 0.5, "none")]),
-            ["quality.isosurfaces = \"map-stopped\"", "shaded isosurfaces", "opacities 1", "\"map-smooth\""],
-        ),
-        (
-            quality("integration = \"table-2d\"\nisosurfaces = \"map-stopped\"", &glass),
-            ["quality.isosurfaces = \"map-stopped\"", "\"table-2d\" would scale", "\"table-3d\"", "\"map-smooth\""],
-        ),
-        (
-            format!("[light]\nvolume = true\n{}", quality(stopped, &glass)),
-            ["quality.isosurfaces = \"map-stopped\"", "a lit volume", "opacities 1", "\"exact\""],
+            ["quality.isosurfaces = \"map-stopped\"", "transparent", "opacities 1", "\"map-smooth\""],
         ),
     ] {
         let error = refusal(&text);
@@ -264,7 +256,7 @@ fn methods_that_do_not_go_together_are_refused_with_a_way_out() {
     }
     // What is not among them is planned.
     for text in [
-        quality(stopped, &glass),
+        quality(stopped, &[(1.0, 1.0, "none"), (2.0, 0.0, "none")]),
         quality(stopped, &[(1.0, 1.0, "flat"), (2.0, 1.0, "smooth")]),
         quality("integration = \"vertex\"\nisosurfaces = \"map-smooth\"", &glass),
         quality("integration = \"vertex\"", &[]),

@@ -4,12 +4,11 @@ use std::ops::Range;
 use std::sync::Arc;
 
 use glam::DVec3;
-use tetrascope_integrate::{Isosurface, Isosurfaces, Phong, SurfaceRole, SurfaceShading};
+use tetrascope_integrate::{Isosurface, Isosurfaces, Phong, SurfaceShading};
 use tetrascope_scene::{Gradients, Plan};
 
 use super::cell::Cell;
 use super::gradient::CellGradient;
-use super::lookup;
 use super::maps::Maps;
 use super::record::CellRecord;
 use crate::geometry::PixelSpace;
@@ -60,13 +59,13 @@ pub(crate) struct Effects {
     pub(crate) surfaces: Isosurfaces,
     /// How they are drawn, where by maps.
     pub(crate) maps: Option<Arc<Maps>>,
-    pub(crate) light: Option<Light>,
+    pub(crate) light: Option<Lamp>,
     pub(crate) gradients: Gradients,
 }
 
 /// The light of a frame, in the camera's axes: right, down, forward.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Light {
+pub(crate) struct Lamp {
     pub(crate) phong: Phong,
     /// From the surface towards the light, of length 1; `None` is a light at the eye.
     pub(crate) direction: Option<[f32; 3]>,
@@ -81,10 +80,10 @@ pub(crate) struct LocalSurface {
     /// Of the side that faces rising scalars, and of the other.
     pub(crate) colors: [[f32; 3]; 2],
     pub(crate) opacity: f32,
-    pub(crate) is_lit: bool,
+    pub(crate) shading: SurfaceShading,
 }
 
-impl Light {
+impl Lamp {
     /// The light of a plan; `None` if nothing is lit.
     pub(crate) fn new(plan: &Plan, space: &PixelSpace) -> Option<Self> {
         let lighting = plan.lighting.filter(|_| plan.gradients() != Gradients::None)?;
@@ -104,14 +103,11 @@ impl Effects {
         maps: Option<Arc<Maps>>,
         space: &PixelSpace,
     ) -> Option<Self> {
-        let light = Light::new(plan, space);
-        // Those that are part of a table's light are not drawn along rays.
-        let is_in_table = lookup::role(plan) == Some(SurfaceRole::Included);
-        let surfaces = if is_in_table { Isosurfaces::default() } else { surfaces.clone() };
+        let light = Lamp::new(plan, space);
         if surfaces.is_empty() && !light.is_some_and(|light| light.volume) {
             return None;
         }
-        Some(Self { surfaces, maps, light, gradients: plan.gradients() })
+        Some(Self { surfaces: surfaces.clone(), maps, light, gradients: plan.gradients() })
     }
 
     /// Which cells have effects: those that an isosurface may cut, and all where the volume is lit.
@@ -141,10 +137,16 @@ impl Effects {
             value: (surface.value - record.scalar_reference - tolerance) as f32,
             colors: [surface.color, surface.back_color].map(|color| color.map(|c| c as f32)),
             opacity: surface.opacity as f32,
-            is_lit: surface.shading != SurfaceShading::None,
+            shading: surface.shading,
         };
         local.clear();
         local.extend(self.surfaces.as_slice()[first..first + cell.count as usize].iter().map(to_local));
+    }
+
+    /// The constant gradient of a cell with effects, where [`Self::gradient`] is another one and surfaces are lit flat.
+    pub(crate) fn flat_gradient(&self, cell: &Cell, space: &PixelSpace) -> Option<CellGradient> {
+        let any_flat = || self.surfaces.as_slice().iter().any(|surface| surface.shading == SurfaceShading::Flat);
+        (self.gradients == Gradients::Points && any_flat()).then(|| CellGradient::constant(cell, space))
     }
 
     /// The gradient of a cell with effects, where anything is lit.

@@ -33,8 +33,8 @@ pub(crate) struct Key {
     model: OpticalModel,
     is_three_dimensional: bool,
     settings: TableSettings,
-    /// Isosurfaces that are part of the table, in the renderer's unit.
-    surfaces: Option<(Isosurfaces, SurfaceRole)>,
+    /// Values of the isosurfaces at which the integral stops, in the renderer's unit.
+    stops: Vec<f64>,
 }
 
 /// A table as one cell sees it.
@@ -48,17 +48,15 @@ pub(crate) struct CellTable<'a> {
     pub(crate) length: f32,
 }
 
-/// What isosurfaces are in the table: none, or, where the integral is to stop in the table itself, all of them. Opaque ones end
-/// the integral and are drawn behind it; transparent ones are part of the table's light.
-pub(crate) fn role(plan: &Plan) -> Option<SurfaceRole> {
-    let isosurfaces = plan.isosurfaces.as_ref()?;
-    match isosurfaces.method {
-        IsosurfaceMethod::Map { mixing: Mixing::Stopped, .. } if plan.integration.needs_table() => {
-            let are_opaque = isosurfaces.surfaces.visible().are_opaque();
-            Some(if are_opaque { SurfaceRole::Stop } else { SurfaceRole::Included })
-        }
-        _ => None,
-    }
+/// Whether the integral stops at isosurfaces in the table itself; they are drawn behind it.
+fn stops(plan: &Plan) -> bool {
+    let method = plan.isosurfaces.as_ref().map(|isosurfaces| isosurfaces.method);
+    matches!(method, Some(IsosurfaceMethod::Map { mixing: Mixing::Stopped, .. }))
+}
+
+/// Surfaces that count by their values alone: a table that ends there does not know what they look like.
+fn values_alone(surfaces: &Isosurfaces) -> Vec<f64> {
+    surfaces.as_slice().iter().map(|surface| surface.value).collect()
 }
 
 impl Key {
@@ -72,7 +70,7 @@ impl Key {
             model: plan.model,
             is_three_dimensional: plan.integration == tetrascope_integrate::Integration::Table3d,
             settings,
-            surfaces: role(plan).map(|role| (surfaces.clone(), role)),
+            stops: if stops(plan) { values_alone(surfaces) } else { Vec::new() },
         })
     }
 }
@@ -81,6 +79,7 @@ impl Lookup {
     /// Builds the table.
     ///
     /// - `transfer`: that of the key over scalars in the renderer's unit
+    /// - `surfaces`: those of the key, should it stop at any
     /// - `scalars`: lowest and highest, likewise
     /// - `lengths`: of segments, world length
     ///
@@ -89,6 +88,7 @@ impl Lookup {
     pub(crate) fn new(
         key: Key,
         transfer: &TransferFunction,
+        surfaces: &Isosurfaces,
         scalars: [f64; 2],
         lengths: ChordLengths,
         progress: &(dyn Fn(u64, u64) + Sync),
@@ -96,7 +96,7 @@ impl Lookup {
         // In units of the longest chord, so that 32 bits hold lengths of any unit.
         let transfer = transfer.with_lengths_scaled(lengths.longest, key.model);
         let domain = TableDomain { scalars, mean_length: lengths.mean / lengths.longest, max_length: 1.0 };
-        let surfaces = key.surfaces.as_ref().map(|(surfaces, role)| (surfaces, *role));
+        let surfaces = (!key.stops.is_empty()).then_some((surfaces, SurfaceRole::Stop));
         let (table, axis) = if key.is_three_dimensional {
             let table = Table3d::build(&transfer, key.model, &domain, &key.settings, surfaces, progress)?;
             let axis = table.scalar_axis();

@@ -2,10 +2,9 @@
 
 use fearless_simd::{Simd, f32x8, prelude::*};
 use tetrascope_integrate::surface::{IsosurfaceMap, SmoothMaps, TexelAxis};
-use tetrascope_integrate::{IsosurfaceError, Isosurfaces, SurfaceRole, SurfaceShading};
+use tetrascope_integrate::{IsosurfaceError, Isosurfaces, SurfaceShading};
 use tetrascope_scene::{IsosurfaceMethod, Mixing, Plan};
 
-use super::lookup;
 use super::methods::CellOptics;
 use super::sample::{LANES, Light, Sample};
 use super::surfaces::{CellWithEffects, Joint, Shade};
@@ -16,8 +15,8 @@ pub(crate) struct Maps {
     key: Key,
     passes: Passes,
     axis: TexelAxis,
-    /// Whether light falls on the surfaces: on all of them alike.
-    are_lit: bool,
+    /// How light falls on the surfaces: on all of them alike.
+    shading: SurfaceShading,
 }
 
 /// How a surface gets into a cell.
@@ -46,8 +45,6 @@ impl Key {
     pub(crate) fn of(plan: &Plan, surfaces: &Isosurfaces) -> Option<Self> {
         match plan.isosurfaces.as_ref()?.method {
             IsosurfaceMethod::Exact => None,
-            // They are part of the table's light.
-            _ if lookup::role(plan) == Some(SurfaceRole::Included) => None,
             IsosurfaceMethod::Map { size, mixing } => {
                 (!surfaces.is_empty()).then(|| Self { surfaces: surfaces.clone(), size, mixing })
             }
@@ -71,8 +68,13 @@ impl Maps {
             let axis = maps.front().axis();
             (if key.mixing == Mixing::Stopped { Passes::BothBehind(maps) } else { Passes::Around(maps) }, axis)
         };
-        let are_lit = key.surfaces.shading() != SurfaceShading::None;
-        Ok(Self { key, passes, axis, are_lit })
+        let shading = key.surfaces.shading();
+        Ok(Self { key, passes, axis, shading })
+    }
+
+    /// The surfaces where the maps have them.
+    pub(crate) fn surfaces(&self) -> Isosurfaces {
+        self.key.surfaces.on_texels(&self.axis)
     }
 
     /// Whether they are what a plan asks for.
@@ -115,7 +117,7 @@ impl Maps {
         if !seen.any_true() {
             return (volume, 0);
         }
-        let at_depth = |depth| if self.are_lit { with_effects.intensities(simd, &rays, depth) } else { None };
+        let at_depth = |depth| with_effects.intensities(simd, &rays, depth, self.shading);
         let near = shaded(simd, near, at_depth(sample.depth[0]));
         let light = match far {
             None => over(volume, near),

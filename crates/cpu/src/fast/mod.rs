@@ -169,8 +169,10 @@ impl CpuRenderer {
         let view = plan.view.in_frame(self.frame.origin, self.frame.scale);
         let space = PixelSpace::new(&view, self.frame.scale);
         let surfaces = self.surfaces(plan);
-        let optics = self.optics(plan, &surfaces);
         let maps = self.maps(plan, &surfaces)?;
+        // Maps have surfaces at the boundaries of texels; the cells that may show them, and tables that stop at them, go by that.
+        let surfaces = maps.as_ref().map_or(surfaces, |maps| maps.surfaces());
+        let optics = self.optics(plan, &surfaces);
         let effects = Effects::new(plan, &surfaces, maps, &space);
         let gradients = match &effects {
             Some(effects) if effects.gradients == Gradients::Points => self.gradients(),
@@ -308,9 +310,10 @@ impl CpuRenderer {
         if let Some(lookup) = recall(&self.lookups, |lookup| lookup.is_for(&key)) {
             return Ok(Some(lookup));
         }
-        let Some(lengths) = self.lengths() else { return Ok(None) };
+        // Only a mesh without volume has none: nothing is looked up in it, whatever the table covers.
+        let lengths = self.lengths().unwrap_or(ChordLengths { mean: 1.0, longest: 1.0 });
         let report = |done, total| progress.report(Stage::Tabulate, done, total);
-        let lookup = Lookup::new(key, optics.transfer(), self.scalar_range, lengths, &report)?;
+        let lookup = Lookup::new(key, optics.transfer(), surfaces, self.scalar_range, lengths, &report)?;
         Ok(Some(remember(&self.lookups, lookup)))
     }
 

@@ -118,8 +118,10 @@ impl Model for Absorption {
     }
 
     #[inline(always)]
-    fn constant<S: Simd>(simd: S, extinction: f32x8<S>, color: [f32x8<S>; 3], length: f32x8<S>) -> Light<S> {
-        Light { rgb: color, transmittance: opacity_transmittance(simd, extinction * length).1 }
+    fn constant<S: Simd>(simd: S, extinction: f32x8<S>, _: [f32x8<S>; 3], length: f32x8<S>) -> Light<S> {
+        // Zeros and not the color: with isosurfaces, light is added in every model.
+        let rgb = [f32x8::splat(simd, 0.0); 3];
+        Light { rgb, transmittance: opacity_transmittance(simd, extinction * length).1 }
     }
 }
 

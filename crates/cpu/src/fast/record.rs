@@ -65,6 +65,8 @@ pub(crate) struct Records {
     pub(crate) effects: Vec<CellEffects>,
     /// Gradients of the same cells, where something is lit, else none.
     pub(crate) gradients: Vec<CellGradient>,
+    /// Their constant gradients, where those are interpolated and some surface is to be lit flat, else none.
+    pub(crate) flat_gradients: Vec<CellGradient>,
 }
 
 impl Records {

@@ -50,6 +50,7 @@ impl SetUp<'_> {
         records.fans.clear();
         records.effects.clear();
         records.gradients.clear();
+        records.flat_gradients.clear();
         dispatch!(self.renderer.level, _simd => self.fill_here(cells, records));
     }
 
@@ -114,6 +115,7 @@ impl SetUp<'_> {
         records.effects.push(of_cell);
         let at_points = || vertices.map(|v| self.gradients[v.index()]);
         records.gradients.extend(effects.gradient(cell, at_points, self.space));
+        records.flat_gradients.extend(effects.flat_gradient(cell, self.space));
     }
 
     /// Adds a cell's record and its fan; a cell that reaches the plane of the eye is cut there into cells that do not.

@@ -9,10 +9,11 @@
 //! thicken, and no pixel is drawn twice.
 
 use fearless_simd::{Simd, f32x8, mask32x8, prelude::*};
+use tetrascope_integrate::SurfaceShading;
 use tetrascope_integrate::lanes::phong;
 
 use super::cell::CellPieces;
-use super::effects::{Light as Lamp, LocalSurface};
+use super::effects::{Lamp, LocalSurface};
 use super::gradient::CellGradient;
 use super::maps::Maps;
 use super::methods::CellOptics;
@@ -70,6 +71,8 @@ pub(crate) struct CellWithEffects<'a> {
     pub(crate) maps: Option<&'a Maps>,
     /// Both where anything is lit.
     pub(crate) gradient: Option<&'a CellGradient>,
+    /// For surfaces that are lit flat, where the other one is interpolated.
+    pub(crate) flat_gradient: Option<&'a CellGradient>,
     pub(crate) lamp: Option<&'a Lamp>,
     pub(crate) space: &'a PixelSpace,
 }
@@ -108,16 +111,29 @@ impl CellWithEffects<'_> {
     /// What the light makes of a surface, or of the volume, with the field's gradient at a depth as normal: the share of the color
     /// that comes back, and the highlight.
     #[inline(always)]
-    pub(crate) fn intensities<S: Simd>(&self, simd: S, rays: &Rays<S>, depth: f32x8<S>) -> Option<[f32x8<S>; 2]> {
-        let (gradient, lamp) = (self.gradient?, self.lamp?);
-        Some(intensities(simd, gradient, lamp, rays, depth))
+    pub(crate) fn intensities<S: Simd>(
+        &self,
+        simd: S,
+        rays: &Rays<S>,
+        depth: f32x8<S>,
+        shading: SurfaceShading,
+    ) -> Option<[f32x8<S>; 2]> {
+        let gradient = match shading {
+            SurfaceShading::None => return None,
+            SurfaceShading::Flat => self.flat_gradient.or(self.gradient)?,
+            SurfaceShading::Smooth => self.gradient?,
+        };
+        Some(intensities(simd, gradient, self.lamp?, rays, depth))
     }
 
     /// What the light makes of the volume, by the gradient in the middle of the segment; `None` if it is not lit.
     #[inline(always)]
     fn intensities_of_volume<S: Simd>(&self, simd: S, rays: &Rays<S>, sample: &Sample<S>) -> Option<[f32x8<S>; 2]> {
         let is_lit = self.lamp.is_some_and(|lamp| lamp.volume);
-        if is_lit { self.intensities(simd, rays, (sample.depth[0] + sample.depth[1]) * 0.5) } else { None }
+        if !is_lit {
+            return None;
+        }
+        self.intensities(simd, rays, (sample.depth[0] + sample.depth[1]) * 0.5, SurfaceShading::Smooth)
     }
 
     /// The volume of a whole segment, lit if it is to be.
@@ -246,12 +262,12 @@ impl CellWithEffects<'_> {
         for (c, channel) in rgb.iter_mut().enumerate() {
             *channel = rises.select(f32x8::splat(simd, rising[c]), f32x8::splat(simd, falling[c])) * opacity;
         }
-        if surface.is_lit {
+        if surface.shading != SurfaceShading::None {
             let across = sample.back - sample.front;
             let share = (f32x8::splat(simd, surface.value) - sample.front) / across.simd_eq(zero).select(one, across);
             let share = share.max(0.0).min(1.0);
             let depth = share.mul_add(sample.depth[1] - sample.depth[0], sample.depth[0]);
-            if let Some([body, highlight]) = self.intensities(simd, rays, depth) {
+            if let Some([body, highlight]) = self.intensities(simd, rays, depth, surface.shading) {
                 for channel in &mut rgb {
                     *channel = channel.mul_add(body, highlight * opacity);
                 }

@@ -213,6 +213,7 @@ impl Job<'_> {
             slack: of_cell.slack,
             maps: effects.maps.as_deref(),
             gradient: records.gradients.get(number),
+            flat_gradient: records.flat_gradients.get(number),
             lamp: effects.light.as_ref(),
             space: self.space,
         })

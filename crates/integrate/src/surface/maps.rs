@@ -48,9 +48,30 @@ impl TexelAxis {
         (((scalar - self.start) * self.per_scalar) as u32).min(self.texels - 1)
     }
 
-    /// The scalar that stands for all of a texel.
+    /// The scalar that stands for all of a texel: the middle; of the first and the last one the end of the range, so that no
+    /// surface inside of the range lies beyond both.
     pub fn center(&self, texel: u32) -> f64 {
-        self.start + (f64::from(texel) + 0.5) / f64::from(self.texels) * self.width
+        let share = match texel {
+            0 => 0.0,
+            _ if texel + 1 >= self.texels => 1.0,
+            _ => (f64::from(texel) + 0.5) / f64::from(self.texels),
+        };
+        self.start + share * self.width
+    }
+
+    /// Where a map has a surface of this value: at the boundary between the two texels whose centers lie on either side of it.
+    ///
+    /// Values outside of the range, and the lowest one, have no boundary and are given back as they are.
+    pub fn boundary(&self, value: f64) -> f64 {
+        let (mut below, mut above) = (0, self.texels - 1);
+        if !(self.center(below) < value && value <= self.center(above)) {
+            return value;
+        }
+        while above - below > 1 {
+            let middle = below + (above - below) / 2;
+            if self.center(middle) < value { below = middle } else { above = middle }
+        }
+        self.start + f64::from(above) / f64::from(self.texels) * self.width
     }
 }
 
@@ -63,7 +84,7 @@ impl TexelAxis {
 /// # Accuracy
 ///
 /// Where both scalars have the rank of their texels' centers the map is exact, to a rounding to 32 bits. Elsewhere a
-/// surface is found up to half a texel of scalar beside its place, and two that share a texel are found together.
+/// surface is found up to half a texel of scalar beside its place, in the first and the last texel up to a whole one,, and two that share a texel are found together.
 ///
 /// # No gaps
 ///

@@ -53,8 +53,15 @@ fn scalars_fall_into_texels() {
     }
     assert_eq!(axis.texel(f64::NAN), 0);
     for texel in 0..8 {
-        assert_eq!(axis.center(texel), -0.75 + 0.5 * f64::from(texel));
-        assert_eq!(axis.texel(axis.center(texel)), texel);
+        // The ends of the range stand for the first and the last.
+        let center = [-1.0, -0.25, 0.25, 0.75, 1.25, 1.75, 2.25, 3.0][texel as usize];
+        assert_eq!(axis.center(texel), center);
+        assert_eq!(axis.texel(center), texel);
+    }
+    for (value, boundary) in
+        [(-2.0, -2.0), (-1.0, -1.0), (-0.99, -0.5), (-0.25, -0.5), (-0.24, 0.0), (2.9, 2.5), (3.0, 2.5), (4.0, 4.0)]
+    {
+        assert_eq!(axis.boundary(value), boundary, "{value}");
     }
 }
 

@@ -4,6 +4,8 @@ use core::ops::Range;
 
 use thiserror::Error;
 
+use super::TexelAxis;
+
 #[cfg(test)]
 #[path = "set_tests.rs"]
 mod tests;
@@ -136,6 +138,13 @@ impl Isosurfaces {
     /// Whether nothing shows through any of them.
     pub fn are_opaque(&self) -> bool {
         self.surfaces.iter().all(|surface| surface.opacity == 1.0)
+    }
+
+    /// The same surfaces where a map of these texels has them.
+    #[must_use]
+    pub fn on_texels(&self, axis: &TexelAxis) -> Self {
+        let moved = |surface: &Isosurface| Isosurface { value: axis.boundary(surface.value), ..*surface };
+        Self { surfaces: self.surfaces.iter().map(moved).collect() }
     }
 
     /// Those that can be seen: without the ones of opacity 0.

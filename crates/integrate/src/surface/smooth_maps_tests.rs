@@ -40,11 +40,11 @@ fn one_opaque_surface_has_the_weights_of_the_paper() {
 fn two_surfaces_have_the_weights_of_the_sum() {
     // From 1/8 to 7/8 with surfaces a third and two thirds of the way.
     let surfaces = set(&[(0.375, 0.5), (0.625, 0.8)]);
-    let maps = SmoothMaps::new(&surfaces, [0.0, 1.0], 4).unwrap();
+    let maps = SmoothMaps::new(&surfaces, [-0.25, 1.25], 6).unwrap();
     let [low, high] = [0, 1].map(|index| surfaces.as_slice()[index]);
     for (front, back, parts) in [
-        (0, 3, [(2.0 / 3.0 * 0.5, low.back_color), (1.0 / 3.0 * 0.5 * 0.8, high.back_color)]),
-        (3, 0, [(2.0 / 3.0 * 0.8, high.color), (1.0 / 3.0 * 0.2 * 0.5, low.color)]),
+        (1, 4, [(2.0 / 3.0 * 0.5, low.back_color), (1.0 / 3.0 * 0.5 * 0.8, high.back_color)]),
+        (4, 1, [(2.0 / 3.0 * 0.8, high.color), (1.0 / 3.0 * 0.2 * 0.5, low.color)]),
     ] {
         let got = maps.front().at(front, back);
         assert!((got.opacity - parts[0].0 - parts[1].0).abs() < 6e-8, "{got:?}");
@@ -59,9 +59,9 @@ fn two_surfaces_have_the_weights_of_the_sum() {
 fn a_surface_at_a_face_is_shaded_there_alone() {
     // Both centers are surfaces: falling, the first is met at the front; rising, the second at the back.
     let surfaces = set(&[(0.25, 1.0), (0.75, 1.0)]);
-    let maps = SmoothMaps::new(&surfaces, [0.0, 1.0], 2).unwrap();
-    assert_eq!([maps.front().at(1, 0).opacity, maps.back().at(1, 0).opacity], [1.0, 0.0]);
-    assert_eq!([maps.front().at(0, 1).opacity, maps.back().at(0, 1).opacity], [0.0, 1.0]);
+    let maps = SmoothMaps::new(&surfaces, [-0.5, 1.5], 4).unwrap();
+    assert_eq!([maps.front().at(2, 1).opacity, maps.back().at(2, 1).opacity], [1.0, 0.0]);
+    assert_eq!([maps.front().at(1, 2).opacity, maps.back().at(1, 2).opacity], [0.0, 1.0]);
 }
 
 #[test]

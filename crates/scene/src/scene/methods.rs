@@ -1,10 +1,10 @@
 //! Which integration, which table and which way to isosurfaces, and whether they go together.
 
-use tetrascope_integrate::{Integration, LengthAxis, SurfaceShading, TableSettings};
+use tetrascope_integrate::{Integration, LengthAxis, TableSettings};
 
 use super::Scene;
 use crate::text::short;
-use crate::{Decision, IsosurfaceMethod, IsosurfacePlan, Lighting, Mixing, SceneError};
+use crate::{Decision, IsosurfaceMethod, IsosurfacePlan, Mixing, SceneError};
 
 impl Scene {
     /// The integration, and why.
@@ -40,15 +40,14 @@ impl Scene {
         Ok((integration, tables))
     }
 
-    /// Refuses ways to isosurfaces that the integration, the shading or the opacities do not allow.
+    /// Refuses ways to isosurfaces that the integration or the opacities do not allow.
     pub(super) fn check_isosurface_method(
         &self,
         integration: Integration,
         isosurfaces: Option<&IsosurfacePlan>,
-        lighting: Option<&Lighting>,
     ) -> Result<(), SceneError> {
         let Some(IsosurfacePlan { surfaces, method }) = isosurfaces else { return Ok(()) };
-        let stopped = |problem: String, remedy| SceneError::Conflict {
+        let refuse = |problem: String, remedy| SceneError::Conflict {
             key: "quality.isosurfaces",
             value: method.name().to_owned(),
             problem,
@@ -61,29 +60,14 @@ impl Scene {
                 problem: "paints triangles, which isosurfaces by \"exact\" cannot cut".to_owned(),
                 remedy: "use another integration, such as \"exact\", or quality.isosurfaces = \"map-smooth\"",
             }),
-            IsosurfaceMethod::Map { mixing: Mixing::Stopped, .. } if !integration.needs_table() => Err(stopped(
+            IsosurfaceMethod::Map { mixing: Mixing::Stopped, .. } if !integration.needs_table() => Err(refuse(
                 format!("stops the integral in a table, and quality.integration = \"{integration}\" has none"),
                 "use integration \"table-2d\" or \"table-3d\", or isosurfaces \"exact\" or \"map-smooth\"",
             )),
-            IsosurfaceMethod::Map { mixing: Mixing::Stopped, .. }
-                if integration == Integration::Table2d && !surfaces.are_opaque() =>
-            {
-                Err(stopped(
-                    "puts transparent isosurfaces into the table, and \"table-2d\" would scale their opacity with the length"
-                        .to_owned(),
-                    "use integration \"table-3d\", make all opacities 1, or use \"exact\" or \"map-smooth\"",
-                ))
-            }
-            IsosurfaceMethod::Map { mixing: Mixing::Stopped, .. } if lighting.is_some() && !surfaces.are_opaque() => {
-                let lit =
-                    if surfaces.shading() == SurfaceShading::None { "a lit volume" } else { "shaded isosurfaces" };
-                Err(stopped(
-                    format!(
-                        "puts transparent isosurfaces into the table, where light cannot reach them, and there is {lit}"
-                    ),
-                    "make all opacities 1, or use \"exact\" or \"map-smooth\"",
-                ))
-            }
+            IsosurfaceMethod::Map { mixing: Mixing::Stopped, .. } if !surfaces.are_opaque() => Err(refuse(
+                "ends the integral at isosurfaces, and behind a transparent one it goes on".to_owned(),
+                "make all opacities 1, or use isosurfaces \"exact\", which go with every table, or \"map-smooth\"",
+            )),
             _ => Ok(()),
         }
     }
@@ -100,11 +84,8 @@ impl Scene {
             IsosurfaceMethod::Map { size, mixing: Mixing::Smooth } => {
                 (format!(", {size} x {size} samples"), "looked up; the volume is blended between front and back faces")
             }
-            IsosurfaceMethod::Map { size, mixing: Mixing::Stopped } if surfaces.are_opaque() => {
-                (format!(", {size} x {size} samples"), "looked up; the table's integral stops at them")
-            }
             IsosurfaceMethod::Map { size, mixing: Mixing::Stopped } => {
-                (format!(", {size} x {size} samples"), "looked up; the table has them in its light")
+                (format!(", {size} x {size} samples"), "looked up; the table's integral stops at them")
             }
         };
         let invisible = self.isosurfaces.len() - count;
