@@ -102,9 +102,11 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     }
     let threads = args.threads.unwrap_or_else(rayon::current_num_threads);
     let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().map_err(|e| e.to_string())?;
-    let renderer = CpuRenderer::new(field.on_mesh.mesh.as_ref(), &field.on_mesh.scalars)?;
+    // One a setting: a renderer remembers two transfer functions, tables and maps, and would make them anew in every frame.
+    let make = |_: &Setting| CpuRenderer::new(field.on_mesh.mesh.as_ref(), &field.on_mesh.scalars);
+    let renderers = settings.iter().map(make).collect::<Result<Vec<_>, _>>()?;
     for frame in 0..args.frames + 2 {
-        for setting in &mut settings {
+        for (setting, renderer) in settings.iter_mut().zip(&renderers) {
             setting.plan.order = args.order;
             setting.plan.view = View::new(&camera(3.0 * f64::from(frame)), args.size, args.size)?;
             let start = Instant::now();

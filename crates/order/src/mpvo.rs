@@ -29,14 +29,10 @@ pub struct Mpvo {
     sides: FaceSides,
 }
 
-/// How far the search has come with a cell.
-#[derive(Clone, Copy, PartialEq, Eq)]
-enum State {
-    New,
-    /// What lies in front of it is being placed.
-    Open,
-    Placed,
-}
+/// How far the search has come with a cell, in the bits above those for its corners: one byte a cell is all that it touches.
+const OPEN: u8 = 0x10;
+const PLACED: u8 = 0x20;
+const DRAWN: u8 = 0x40;
 
 impl Mpvo {
     /// Learns which faces a mesh's cells share, and on which side of them they lie.
@@ -47,21 +43,33 @@ impl Mpvo {
     }
 
     /// Places cells after all that lie in front of them; gives whether a ring had to be broken.
-    fn place(&self, nearer: &[u8], sorted: &[CellId], is_drawn: &[bool], placed: &mut Vec<CellId>) -> bool {
+    ///
+    /// - `state`: for every cell the corners whose opposite neighbor lies in front of it, as bits, and [`DRAWN`]
+    fn place(&self, state: &mut [u8], sorted: &[CellId], placed: &mut Vec<CellId>) -> bool {
         let table = self.adjacency.table();
-        let mut state = vec![State::New; nearer.len()];
         let mut open: Vec<(CellId, u8)> = Vec::new();
         let mut is_cyclic = false;
+        let mut begin = |cell: CellId, state: &mut [u8], open: &mut Vec<(CellId, u8)>| {
+            let bits = &mut state[cell.index()];
+            match *bits & (OPEN | PLACED) {
+                0 => {
+                    open.push((cell, *bits & 0x0f));
+                    *bits |= OPEN;
+                }
+                OPEN => is_cyclic = true,
+                _ => {}
+            }
+        };
         for &root in sorted {
-            if state[root.index()] != State::New {
+            if state[root.index()] & PLACED != 0 {
                 continue;
             }
-            state[root.index()] = State::Open;
-            open.push((root, nearer[root.index()]));
+            begin(root, state, &mut open);
             while let Some((cell, in_front)) = open.last_mut() {
                 if *in_front == 0 {
-                    state[cell.index()] = State::Placed;
-                    if is_drawn[cell.index()] {
+                    let bits = &mut state[cell.index()];
+                    *bits ^= OPEN | PLACED;
+                    if *bits & DRAWN != 0 {
                         placed.push(*cell);
                     }
                     open.pop();
@@ -70,14 +78,7 @@ impl Mpvo {
                 let corner = in_front.trailing_zeros();
                 *in_front &= *in_front - 1;
                 let next = neighbor(table, *cell, corner);
-                match state[next.index()] {
-                    State::New => {
-                        state[next.index()] = State::Open;
-                        open.push((next, nearer[next.index()]));
-                    }
-                    State::Open => is_cyclic = true,
-                    State::Placed => {}
-                }
+                begin(next, state, &mut open);
             }
         }
         is_cyclic
@@ -90,15 +91,19 @@ impl VisibilityOrder for Mpvo {
     /// If `cells` is not the mesh that it was made for, in number.
     fn order(&self, cells: Cells<'_>, viewpoint: Viewpoint, drawn: &[CellId]) -> Order {
         assert_eq!(cells.tetrahedra.len(), self.sides.len(), "an order is made for one mesh");
-        let nearer = self.sides.nearer_neighbors(cells, viewpoint);
-        let sorted = nearest_first(cells, viewpoint, drawn);
-        let mut is_drawn = vec![false; nearer.len()];
+        let (mut state, sorted) =
+            rayon::join(|| self.sides.nearer_neighbors(cells, viewpoint), || nearest_first(cells, viewpoint, drawn));
         for cell in drawn {
-            is_drawn[cell.index()] = true;
+            state[cell.index()] |= DRAWN;
         }
         let mut front_to_back = Vec::with_capacity(drawn.len());
-        let is_cyclic = self.place(&nearer, &sorted, &is_drawn, &mut front_to_back);
-        let cycles = if is_cyclic { cycles(&nearer, self.adjacency.table()) } else { Vec::new() };
+        let is_cyclic = self.place(&mut state, &sorted, &mut front_to_back);
+        let cycles = if is_cyclic {
+            state.par_iter_mut().for_each(|bits| *bits &= 0x0f);
+            cycles(&state, self.adjacency.table())
+        } else {
+            Vec::new()
+        };
         Order { front_to_back, guarantee: Guarantee::Faces, cycles }
     }
 }

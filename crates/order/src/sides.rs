@@ -102,7 +102,23 @@ fn face(cells: Cells<'_>, tetrahedron: [VertexId; 4], corner: usize) -> [DVec3; 
 }
 
 /// Whether a point lies on the positive side of three others' plane; `None` on it. Exact.
-fn orientation([p, q, r]: [DVec3; 3], point: DVec3) -> Option<bool> {
+#[inline]
+fn orientation(face @ [p, q, r]: [DVec3; 3], point: DVec3) -> Option<bool> {
+    // Shewchuk's filter, here so that it is inlined: nearly all signs are settled by it.
+    let [a, b, c] = face.map(|corner| corner - point);
+    let (bc, ca, ab) = (b.x * c.y, c.x * a.y, a.x * b.y);
+    let (cb, ac, ba) = (c.x * b.y, a.x * c.y, b.x * a.y);
+    let determinant = a.z * (bc - cb) + b.z * (ca - ac) + c.z * (ab - ba);
+    let permanent =
+        a.z.abs() * (bc.abs() + cb.abs()) + b.z.abs() * (ca.abs() + ac.abs()) + c.z.abs() * (ab.abs() + ba.abs());
+    if determinant.abs() > 7.8e-16 * permanent && permanent > 1e-250 {
+        return Some(determinant > 0.0);
+    }
+    exact_orientation([p, q, r], point)
+}
+
+#[cold]
+fn exact_orientation([p, q, r]: [DVec3; 3], point: DVec3) -> Option<bool> {
     let determinant = robust::orient3d(coord(p), coord(q), coord(r), coord(point));
     (determinant != 0.0).then_some(determinant > 0.0)
 }
