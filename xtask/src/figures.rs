@@ -1,6 +1,6 @@
 //! `cargo xtask figures`: draws the pictures of `docs/gallery.md`, after figures of the papers.
 //!
-//! Every scene is a file in `xtask/figures` that the command line draws as well. Data sets lie beside the repository; what is absent
+//! Every scene is a file in `xtask/figures`; the command line draws most of them as well. Data sets lie beside the repository; what is absent
 //! is skipped, and said.
 
 mod cells;

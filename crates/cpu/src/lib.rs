@@ -12,7 +12,8 @@
 //! exactly in a face, along an edge or through a vertex belongs to exactly one cell.
 //!
 //! Isosurfaces are met along the ray, inside the cells. On which side of them a ray leaves one cell is on which side it
-//! enters the next, so that no surface is missed or met twice between them. The reference cuts rays at the crossings
+//! enters the next, so that no surface is missed or met twice between them; in the fast renderer where the order is right and
+//! the eye not farther than some 10,000 mesh sizes. The reference cuts rays at the crossings
 //! whatever the plan says of maps, which approximate that. Gradients, tables and maps are made if the plan asks for them.
 //!
 //! ```

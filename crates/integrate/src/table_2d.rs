@@ -120,8 +120,8 @@ impl Table2d {
 
     /// Its own error: the look-up against [`crate::exact`] over all of its domain, see [`deviation()`].
     ///
-    /// `transfer` is the transfer function that it was made from. Of a table with surfaces the result is their light
-    /// too.
+    /// `transfer` is the transfer function that it was made from. Meaningless for a table with
+    /// surfaces, which `exact` does not know.
     pub fn deviation(&self, transfer: &TransferFunction, samples: u32) -> Deviation {
         deviation(transfer, self.model, &self.domain, 1.0, samples, |segment| self.look_up(segment))
     }

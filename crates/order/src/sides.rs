@@ -32,8 +32,7 @@ impl FaceSides {
             .into_par_iter()
             .map(|cell| {
                 let mut bits = 0;
-                for corner in 0..4 {
-                    let neighbor = table[cell][corner];
+                for (corner, &neighbor) in table[cell].iter().enumerate() {
                     if neighbor == FaceAdjacency::NONE {
                         continue;
                     }
