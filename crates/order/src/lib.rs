@@ -23,6 +23,7 @@
 mod bucket;
 mod centroid;
 mod method;
+mod power;
 mod radix;
 mod unordered;
 
@@ -33,6 +34,7 @@ use tetrascope_view::Viewpoint;
 pub use bucket::Bucket;
 pub use centroid::Centroid;
 pub use method::{OrderMethod, UnknownOrder};
+pub use power::{Budget, HeightSource, Heights, Power, PowerCertificate};
 pub use radix::{sort_by_key, sortable_bits};
 pub use unordered::Unordered;
 

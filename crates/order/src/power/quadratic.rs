@@ -1,0 +1,136 @@
+//! The quadratic form whose values at the points violate the fewest faces.
+
+use glam::DVec3;
+
+use super::lifted::LiftedFace;
+
+/// Newton steps at most; where a form orders the whole mesh, six to eight find it.
+const STEPS: u32 = 16;
+
+/// Halvings of a step that makes the sum of squares larger.
+const HALVINGS: u32 = 10;
+
+/// The unknowns of a symmetric form in space.
+const UNKNOWNS: usize = 6;
+
+type Coefficients = [f64; UNKNOWNS];
+
+/// Squares and products of coordinates: what the unknowns multiply.
+fn products(p: DVec3) -> Coefficients {
+    [p.x * p.x, p.y * p.y, p.z * p.z, p.x * p.y, p.y * p.z, p.z * p.x]
+}
+
+/// Heights `pᵀ Q p` by the best form `Q`, and how many faces it violates; `None` if there is no face.
+///
+/// Affine images of meshes that `|p|²` orders are ordered by a form, and so are hexahedra of any one shape cut along the
+/// same diagonals. Every face is one inequality in six unknowns, scaled to length 1; the sum of squares of what is
+/// lacking to 1 is made smallest by Newton steps, each one pass over the faces and one system of six equations.
+pub(super) fn quadratic_heights(
+    faces: &[LiftedFace],
+    positions: &[DVec3],
+    center: DVec3,
+    visits: &mut u64,
+) -> Option<(Vec<f64>, usize)> {
+    let features: Vec<Coefficients> = faces.iter().filter_map(|face| feature(face, positions)).collect();
+    let mut best: Option<(Coefficients, usize)> = None;
+    // |p|² first.
+    let mut form = [1.0, 1.0, 1.0, 0.0, 0.0, 0.0];
+    let mut cost = f64::INFINITY;
+    for _ in 0..STEPS {
+        if *visits < features.len() as u64 {
+            break;
+        }
+        *visits -= features.len() as u64;
+        let Some(target) = newton_target(&features, &form) else { break };
+        let mut share = 1.0;
+        let mut next = target;
+        let mut next_cost = cost_of(&features, &next);
+        for _ in 0..HALVINGS {
+            if next_cost.0 <= cost {
+                break;
+            }
+            share *= 0.5;
+            next = std::array::from_fn(|k| form[k] + share * (target[k] - form[k]));
+            next_cost = cost_of(&features, &next);
+        }
+        if next_cost.0 >= cost {
+            break;
+        }
+        (form, cost) = (next, next_cost.0);
+        if best.is_none_or(|(_, violated)| next_cost.1 < violated) {
+            best = Some((form, next_cost.1));
+        }
+        if next_cost.1 == 0 {
+            break;
+        }
+    }
+    let (form, _) = best?;
+    let heights: Vec<f64> = positions.iter().map(|&p| dot(&products(p - center), &form)).collect();
+    let violated = super::relax::count_violated(faces, &heights);
+    Some((heights, violated))
+}
+
+fn dot(a: &Coefficients, b: &Coefficients) -> f64 {
+    a.iter().zip(b).map(|(a, b)| a * b).sum()
+}
+
+/// What a face demands of the form, of length 1. The dependency's weights take linear parts away, so that any of the
+/// points may be the origin.
+fn feature(face: &LiftedFace, positions: &[DVec3]) -> Option<Coefficients> {
+    let origin = positions[face.points[4] as usize];
+    let mut sum = [0.0; UNKNOWNS];
+    for (&point, weight) in face.points.iter().zip(face.weights).take(4) {
+        for (sum, product) in sum.iter_mut().zip(products(positions[point as usize] - origin)) {
+            *sum += weight * product;
+        }
+    }
+    let length = dot(&sum, &sum).sqrt();
+    (length > 0.0 && length.is_finite()).then(|| sum.map(|s| s / length))
+}
+
+/// Sum of squares of what the faces lack, and how many are violated.
+fn cost_of(features: &[Coefficients], form: &Coefficients) -> (f64, usize) {
+    features.iter().fold((0.0, 0), |(cost, violated), feature| {
+        let convexity = dot(feature, form);
+        let lacking = (1.0 - convexity).max(0.0);
+        (cost + lacking * lacking, violated + usize::from(convexity <= 0.0))
+    })
+}
+
+/// Where the sum of squares over the faces that now lack something is smallest.
+fn newton_target(features: &[Coefficients], form: &Coefficients) -> Option<Coefficients> {
+    let mut matrix = [[0.0; UNKNOWNS]; UNKNOWNS];
+    let mut right = [0.0; UNKNOWNS];
+    for feature in features.iter().filter(|feature| dot(feature, form) < 1.0) {
+        for i in 0..UNKNOWNS {
+            right[i] += feature[i];
+            for j in 0..UNKNOWNS {
+                matrix[i][j] += feature[i] * feature[j];
+            }
+        }
+    }
+    // Keeps the system solvable where few faces lack anything; small against one face.
+    for (i, row) in matrix.iter_mut().enumerate() {
+        row[i] += 1e-9 * features.len() as f64;
+    }
+    solve(matrix, right)
+}
+
+/// Elimination without exchanges: the matrix is symmetric and positive definite.
+fn solve(mut matrix: [[f64; UNKNOWNS]; UNKNOWNS], mut right: Coefficients) -> Option<Coefficients> {
+    for pivot in 0..UNKNOWNS {
+        let pivot_row = matrix[pivot];
+        for row in pivot + 1..UNKNOWNS {
+            let factor = matrix[row][pivot] / pivot_row[pivot];
+            for column in pivot..UNKNOWNS {
+                matrix[row][column] -= factor * pivot_row[column];
+            }
+            right[row] -= factor * right[pivot];
+        }
+    }
+    for row in (0..UNKNOWNS).rev() {
+        let known: f64 = (row + 1..UNKNOWNS).map(|column| matrix[row][column] * right[column]).sum();
+        right[row] = (right[row] - known) / matrix[row][row];
+    }
+    right.iter().all(|r| r.is_finite()).then_some(right)
+}
