@@ -1,6 +1,6 @@
 //! The quadratic form whose values at the points violate the fewest faces.
 
-use glam::DVec3;
+use glam::{DMat3, DVec3};
 
 use super::lifted::LiftedFace;
 
@@ -31,9 +31,10 @@ pub(super) fn quadratic_heights(
     center: DVec3,
     visits: &mut u64,
 ) -> Option<(Vec<f64>, usize)> {
-    let features: Vec<Coefficients> = faces.iter().filter_map(|face| feature(face, positions)).collect();
+    let rounding = rounding_map(faces, positions);
+    let features: Vec<Coefficients> = faces.iter().filter_map(|face| feature(face, positions, rounding)).collect();
     let mut best: Option<(Coefficients, usize)> = None;
-    // |p|² first.
+    // The map's own form first.
     let mut form = [1.0, 1.0, 1.0, 0.0, 0.0, 0.0];
     let mut cost = f64::INFINITY;
     for _ in 0..STEPS {
@@ -65,7 +66,7 @@ pub(super) fn quadratic_heights(
         }
     }
     let (form, _) = best?;
-    let heights: Vec<f64> = positions.iter().map(|&p| dot(&products(p - center), &form)).collect();
+    let heights: Vec<f64> = positions.iter().map(|&p| dot(&products(rounding * (p - center)), &form)).collect();
     let violated = super::relax::count_violated(faces, &heights);
     Some((heights, violated))
 }
@@ -74,13 +75,37 @@ fn dot(a: &Coefficients, b: &Coefficients) -> f64 {
     a.iter().zip(b).map(|(a, b)| a * b).sum()
 }
 
+/// A linear map after which the cells are as long in one direction as in another on the whole: the system of six equations is
+/// then well conditioned, and for an affine image of a regular grid the first form is nearly the answer.
+///
+/// The inverse of the lower Cholesky factor of the edges' mean outer product; the identity if that is singular.
+fn rounding_map(faces: &[LiftedFace], positions: &[DVec3]) -> DMat3 {
+    let mut sum = DMat3::ZERO;
+    for face in faces {
+        let [a, b, c, d, _] = face.points.map(|p| positions[p as usize]);
+        for edge in [b - a, c - b, a - c, d - a] {
+            sum += DMat3::from_cols(edge * edge.x, edge * edge.y, edge * edge.z);
+        }
+    }
+    let (xx, xy, xz) = (sum.x_axis.x, sum.x_axis.y, sum.x_axis.z);
+    let (yy, yz, zz) = (sum.y_axis.y, sum.y_axis.z, sum.z_axis.z);
+    let l11 = xx.sqrt();
+    let (l21, l31) = (xy / l11, xz / l11);
+    let l22 = (yy - l21 * l21).sqrt();
+    let l32 = (yz - l31 * l21) / l22;
+    let l33 = (zz - l31 * l31 - l32 * l32).sqrt();
+    let lower = DMat3::from_cols(DVec3::new(l11, l21, l31), DVec3::new(0.0, l22, l32), DVec3::new(0.0, 0.0, l33));
+    let inverse = lower.inverse() * xx.sqrt();
+    if inverse.is_finite() { inverse } else { DMat3::IDENTITY }
+}
+
 /// What a face demands of the form, of length 1. The dependency's weights take linear parts away, so that any of the
 /// points may be the origin.
-fn feature(face: &LiftedFace, positions: &[DVec3]) -> Option<Coefficients> {
+fn feature(face: &LiftedFace, positions: &[DVec3], rounding: DMat3) -> Option<Coefficients> {
     let origin = positions[face.points[4] as usize];
     let mut sum = [0.0; UNKNOWNS];
     for (&point, weight) in face.points.iter().zip(face.weights).take(4) {
-        for (sum, product) in sum.iter_mut().zip(products(positions[point as usize] - origin)) {
+        for (sum, product) in sum.iter_mut().zip(products(rounding * (positions[point as usize] - origin))) {
             *sum += weight * product;
         }
     }

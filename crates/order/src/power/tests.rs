@@ -98,7 +98,8 @@ fn unit() -> impl Strategy<Value = DVec3> {
 /// Inside, outside, on grid points and planes (many equal keys), and along directions.
 fn viewpoint(n: u32) -> impl Strategy<Value = Viewpoint> {
     let n = f64::from(n);
-    let lattice = (-2..9_i32, -2..9_i32, -2..9_i32).prop_map(|(x, y, z)| DVec3::new(x.into(), y.into(), z.into()) * 0.5);
+    let lattice =
+        (-2..9_i32, -2..9_i32, -2..9_i32).prop_map(|(x, y, z)| DVec3::new(x.into(), y.into(), z.into()) * 0.5);
     let direction = (-2..3_i32, -2..3_i32, -2..3_i32).prop_map(|(x, y, z)| DVec3::new(x.into(), y.into(), z.into()));
     prop_oneof![
         unit().prop_map(move |p| Viewpoint::Eye(p * n)),
