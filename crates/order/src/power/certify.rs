@@ -76,7 +76,8 @@ pub(super) fn coord(p: DVec3) -> Coord3D<f64> {
 }
 
 /// Shewchuk's bound for the sign of a four by four determinant of differences: (16 + 224 ε) ε times the permanent,
-/// ε = 2⁻⁵³. Source: [Shewchuk 1997], section 4.4, where the fourth column is a sum of squares and rounds more.
+/// ε = 2⁻⁵³. Source: [Shewchuk 1997], the bound of InSphere, whose fourth column
+/// is a sum of squares and rounds more.
 const ROUNDING_F64: f64 = 1.7764e-15;
 
 /// Below this, products may have lost digits to underflow.

@@ -4,9 +4,9 @@ use std::ops::{Add, Mul, Neg, Sub};
 
 /// Bound of the relative rounding of a determinant in [`Double`], against its permanent.
 ///
-/// A sum is off by 3 · 2⁻¹⁰⁶ of itself at most, a product by 5 · 2⁻¹⁰⁶ ([Joldes 2017], theorems 3.1 and 5.3 hold
-/// less). A four by four determinant chains three products and five sums: below 32 · 2⁻¹⁰⁶ = 4e-31 of the permanent,
-/// whose own rounding in f64 the rest of the margin takes.
+/// A sum is off by little more than 3 · 2⁻¹⁰⁶ of itself, a product by 5 · 2⁻¹⁰⁶ ([Joldes 2017]). A four by four
+/// determinant chains three products and five sums: below 32 · 2⁻¹⁰⁶ = 4e-31 of the permanent, whose own rounding in f64 the
+/// rest of the margin takes.
 pub(super) const ROUNDING: f64 = 1e-30;
 
 /// `high + low`, where `low` is below half a unit in the last place of `high`.

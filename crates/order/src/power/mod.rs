@@ -34,7 +34,7 @@ use keys::CellKey;
 /// Cells that share a face come in the right order from every viewpoint if [`PowerCertificate::is_exact`]. Keys are sorted by 32
 /// bits; cells whose keys are nearer than that resolves are compared in f64, and those nearer than f64 is sure of by the
 /// exact side of their common faces. Cells that meet edge-on keep the order of `drawn` where nothing else decides. Memory: 32
-/// bytes a cell. Two cells that share no face and whose keys agree to rounding are told apart only through cells that are drawn.
+/// bytes a cell. It orders the mesh it was made for, and no other. Two cells that share no face and whose keys agree to rounding are told apart only through cells that are drawn.
 #[derive(Clone, Debug)]
 pub struct Power {
     keys: Vec<CellKey>,

@@ -7,6 +7,9 @@ use super::lifted::LiftedFace;
 /// Newton steps at most; where a form orders the whole mesh, six to eight find it.
 const STEPS: u32 = 16;
 
+/// Looks at a face that a step costs: one for the equations, and one or two for the sum of squares at its end.
+const LOOKS_PER_STEP: u64 = 3;
+
 /// Halvings of a step that makes the sum of squares larger.
 const HALVINGS: u32 = 10;
 
@@ -38,10 +41,11 @@ pub(super) fn quadratic_heights(
     let mut form = [1.0, 1.0, 1.0, 0.0, 0.0, 0.0];
     let mut cost = f64::INFINITY;
     for _ in 0..STEPS {
-        if *visits < features.len() as u64 {
+        let cost_of_step = LOOKS_PER_STEP * features.len() as u64;
+        if *visits < cost_of_step {
             break;
         }
-        *visits -= features.len() as u64;
+        *visits -= cost_of_step;
         let Some(target) = newton_target(&features, &form) else { break };
         let mut share = 1.0;
         let mut next = target;
