@@ -17,9 +17,9 @@ pub struct Budget {
 }
 
 impl Budget {
-    /// Three to five seconds for a million tetrahedra at worst, and a tenth of that for meshes of mesh generators and for grids
+    /// Some five seconds for a million tetrahedra at worst, and a tenth of that for meshes of mesh generators and for grids
     /// that are graded, jittered or gently bent. Enough for the blunt fin.
-    pub const QUICK: Self = Self { visits_per_face: 300 };
+    pub const QUICK: Self = Self { visits_per_face: 400 };
     /// For heights that are kept.
     pub const THOROUGH: Self = Self { visits_per_face: 2000 };
 }

@@ -10,6 +10,9 @@ const STEPS: u32 = 16;
 /// Looks at a face that a step costs: one for the equations, and one or two for the sum of squares at its end.
 const LOOKS_PER_STEP: u64 = 3;
 
+/// A step that leaves more than this of the sum of squares is the last: no form orders the mesh.
+const STALLED: f64 = 0.999;
+
 /// Halvings of a step that makes the sum of squares larger.
 const HALVINGS: u32 = 10;
 
@@ -58,7 +61,7 @@ pub(super) fn quadratic_heights(
             next = std::array::from_fn(|k| form[k] + share * (target[k] - form[k]));
             next_cost = cost_of(&features, &next);
         }
-        if next_cost.0 >= cost {
+        if next_cost.0 >= STALLED * cost {
             break;
         }
         (form, cost) = (next, next_cost.0);
