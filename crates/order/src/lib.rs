@@ -28,6 +28,7 @@ mod centroid;
 mod cycles;
 mod method;
 mod mpvo;
+mod power;
 mod radix;
 mod sides;
 mod unordered;
@@ -40,6 +41,7 @@ pub use bucket::Bucket;
 pub use centroid::Centroid;
 pub use method::{OrderMethod, UnknownOrder};
 pub use mpvo::{Mpvo, misordered_faces};
+pub use power::{Budget, HeightSource, Heights, Power, PowerCertificate};
 pub use radix::{sort_by_key, sortable_bits};
 pub use unordered::Unordered;
 

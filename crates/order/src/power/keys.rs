@@ -1,0 +1,133 @@
+//! Keys of cells, how sure they are, and their 32 bits for the radix sort.
+
+use glam::DVec3;
+use rayon::prelude::*;
+use tetrascope_view::Viewpoint;
+
+use super::certify::determinant;
+use super::double::{Double, ROUNDING};
+
+/// A cell's affine function: `constant + gradient · (p - center)`.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct CellKey {
+    gradient: DVec3,
+    constant: f64,
+}
+
+/// A key, and how far rounding may have moved it.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Key {
+    pub(super) value: f64,
+    pub(super) error: f64,
+}
+
+/// Roundings of a key, in units of 2⁻⁵³ of the sum of its terms' magnitudes: one each for the difference from the center,
+/// the stored gradient and the stored constant, four for products and sums, one for what is of second order.
+const KEY_ROUNDING: f64 = 8.0 * f64::EPSILON / 2.0;
+
+impl CellKey {
+    /// The function through the heights of four corners, and whether it is as precise as f64 holds it. A cell without volume has
+    /// none; it gets the key of `|p|²` at its centroid, so that it lies among its neighbors on a Delaunay mesh.
+    pub(super) fn new(positions: [DVec3; 4], heights: [f64; 4], center: DVec3) -> (Self, bool) {
+        let edge =
+            |k: usize| -> [Double; 3] { std::array::from_fn(|i| Double::difference(positions[k][i], positions[3][i])) };
+        let edges = [edge(0), edge(1), edge(2)];
+        let rises: [Double; 3] = std::array::from_fn(|k| Double::difference(heights[k], heights[3]));
+        let volume = determinant(edges);
+        // Cramer's rule by columns: the rises in the place of one coordinate.
+        let component = |i: usize| {
+            let column = |k: usize| {
+                let mut row = edges[k];
+                row[i] = rises[k];
+                row
+            };
+            determinant([column(0), column(1), column(2)]).over(volume)
+        };
+        let exact = [component(0), component(1), component(2)];
+        let constant = (0..3)
+            .fold(Double::from(heights[3]), |sum, i| sum + exact[i] * Double::difference(center[i], positions[3][i]));
+        let gradient = DVec3::from_array(exact.map(|component| component.high));
+        let key = Self { gradient, constant: constant.high };
+
+        let lengths = edges.map(|edge| edge.iter().map(|component| component.high.abs()).sum::<f64>());
+        let rise = rises.iter().map(|rise| rise.high.abs()).fold(0.0, f64::max);
+        let slope = gradient.abs().max_element();
+        // The permanents of both determinants are at most these.
+        let volume_error = ROUNDING * 6.0 * lengths[0] * lengths[1] * lengths[2];
+        let longest = lengths.iter().copied().fold(0.0, f64::max);
+        let rise_error = ROUNDING * 18.0 * longest * longest * rise;
+        let relative = (volume_error * slope + rise_error) / volume.high.abs();
+        let is_finite = key.gradient.is_finite() && key.constant.is_finite();
+        if is_finite {
+            return (key, relative <= slope * f64::EPSILON / 8.0);
+        }
+        let centroid = (positions[0] + positions[1] + positions[2] + positions[3]) * 0.25 - center;
+        (Self { gradient: centroid * 2.0, constant: -centroid.length_squared() }, false)
+    }
+
+    /// Smaller is nearer. From an eye the negated function there; along a direction, where the eye has gone to infinity
+    /// against it, the slope along it.
+    #[inline]
+    pub(super) fn at(&self, viewpoint: Viewpoint, center: DVec3, reach: f64) -> Key {
+        let steepest = self.gradient.abs().max_element();
+        match viewpoint {
+            Viewpoint::Eye(eye) => {
+                let offset = eye - center;
+                let value = -(self.constant + self.gradient.dot(offset));
+                let magnitude = self.constant.abs() + steepest * (offset.abs().element_sum() + reach);
+                Key { value, error: KEY_ROUNDING * magnitude }
+            }
+            Viewpoint::Direction(direction) => Key {
+                value: self.gradient.dot(direction),
+                error: KEY_ROUNDING * steepest * direction.abs().element_sum(),
+            },
+        }
+    }
+}
+
+/// Equal steps from the lowest key to the highest, 2³² of them.
+///
+/// Equal steps rather than the bits of an f32: keys are spread over their range, and near zero they need not be finer.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Steps {
+    low: f64,
+    per_key: f64,
+}
+
+impl Steps {
+    pub(super) fn between(low: f64, high: f64) -> Self {
+        let per_key = f64::from(u32::MAX) / (high - low);
+        // One key alone, or none, or not finite: all cells share step 0.
+        let per_key = if per_key.is_finite() { per_key } else { 0.0 };
+        Self { low, per_key }
+    }
+
+    #[inline]
+    pub(super) fn step(&self, key: f64) -> u32 {
+        ((key - self.low) * self.per_key) as u32
+    }
+
+    /// Ranges of steps, first and last, in which some key's error reaches beyond the neighboring step; disjoint, ascending.
+    ///
+    /// Other keys two steps apart are in the right order: each errs by less than half a step.
+    pub(super) fn unsure(&self, keys: &[Key]) -> Vec<[u32; 2]> {
+        const SURE: f64 = 0.49;
+        let mut ranges: Vec<[u32; 2]> = keys
+            .par_iter()
+            .filter(|key| key.error * self.per_key > SURE || !key.error.is_finite())
+            .map(|key| {
+                let (middle, reach) = (f64::from(self.step(key.value)), key.error * self.per_key + 2.0);
+                [(middle - reach).floor() as u32, (middle + reach).ceil() as u32]
+            })
+            .collect();
+        ranges.sort_unstable();
+        let mut merged: Vec<[u32; 2]> = Vec::new();
+        for range in ranges {
+            match merged.last_mut() {
+                Some(last) if range[0] <= last[1] => last[1] = last[1].max(range[1]),
+                _ => merged.push(range),
+            }
+        }
+        merged
+    }
+}

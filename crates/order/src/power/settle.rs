@@ -1,0 +1,141 @@
+//! Cells whose keys are too near each other to be told apart by them.
+
+use std::cmp::Reverse;
+use std::collections::BinaryHeap;
+
+use robust::orient3d;
+use tetrascope_mesh::{CellId, FaceAdjacency, VertexId};
+use tetrascope_view::Viewpoint;
+
+use super::certify::{coord, determinant};
+use super::double::{Double, ROUNDING};
+use super::keys::Key;
+use crate::Cells;
+
+/// Up to this many cells common faces are found by comparing all pairs; beyond, through an adjacency of their own.
+const FEW: usize = 12;
+
+/// Puts right, in cells sorted by their steps, those whose steps do not tell: equal or neighboring ones and those in a
+/// range of `unsure`.
+pub(super) fn settle(
+    sorted: &mut [(u32, CellId)],
+    unsure: &[[u32; 2]],
+    cells: Cells<'_>,
+    viewpoint: Viewpoint,
+    key: impl Fn(CellId) -> Key,
+) {
+    let mut range = 0;
+    let mut start = 0;
+    for end in 1..=sorted.len() {
+        let is_joined = end < sorted.len() && {
+            let (before, after) = (sorted[end - 1].0, sorted[end].0);
+            while range < unsure.len() && unsure[range][1] < after {
+                range += 1;
+            }
+            after - before < 2 || unsure.get(range).is_some_and(|&[first, _]| first <= before)
+        };
+        if !is_joined {
+            if end - start > 1 {
+                settle_run(&mut sorted[start..end], cells, viewpoint, &key);
+            }
+            start = end;
+        }
+    }
+}
+
+/// Sorts a run by its keys in f64, and by common faces where these overlap within their errors.
+fn settle_run(run: &mut [(u32, CellId)], cells: Cells<'_>, viewpoint: Viewpoint, key: impl Fn(CellId) -> Key) {
+    let mut keyed: Vec<(Key, CellId)> = run.iter().map(|&(_, cell)| (key(cell), cell)).collect();
+    keyed.sort_by(|(a, _), (b, _)| a.value.total_cmp(&b.value));
+    // The lowest that any key from here on may be.
+    let mut lowest = vec![f64::INFINITY; keyed.len() + 1];
+    for (place, (key, _)) in keyed.iter().enumerate().rev() {
+        lowest[place] = lowest[place + 1].min(key.value - key.error);
+    }
+    let mut highest = f64::NEG_INFINITY;
+    let mut start = 0;
+    let mut members: Vec<CellId> = keyed.iter().map(|&(_, cell)| cell).collect();
+    for end in 1..=keyed.len() {
+        let last = &keyed[end - 1].0;
+        highest = highest.max(last.value + last.error);
+        if end == keyed.len() || highest < lowest[end] {
+            if end - start > 1 {
+                sort_by_faces(&mut members[start..end], cells, viewpoint);
+            }
+            start = end;
+        }
+    }
+    run.iter_mut().zip(members).for_each(|(item, cell)| item.1 = cell);
+}
+
+/// Sorts so that of two cells that share a face the nearer comes first, and otherwise leaves them as they are as far as it can.
+fn sort_by_faces(members: &mut [CellId], cells: Cells<'_>, viewpoint: Viewpoint) {
+    let corners: Vec<[VertexId; 4]> = members.iter().map(|cell| cells.tetrahedra[cell.index()]).collect();
+    let mut behind: Vec<Vec<u32>> = vec![Vec::new(); members.len()];
+    let mut in_front = vec![0_u32; members.len()];
+    let mut meet = |a: usize, b: usize| {
+        let (front, back) = match nearer(cells, viewpoint, corners[a], corners[b]) {
+            Some(true) => (a, b),
+            Some(false) => (b, a),
+            None => return,
+        };
+        behind[front].push(back as u32);
+        in_front[back] += 1;
+    };
+    if members.len() <= FEW {
+        for a in 0..members.len() {
+            (a + 1..members.len()).for_each(|b| meet(a, b));
+        }
+    } else {
+        let adjacency = FaceAdjacency::new(&corners);
+        for (a, neighbors) in adjacency.table().iter().enumerate() {
+            neighbors
+                .iter()
+                .filter(|&&b| b != FaceAdjacency::NONE && a < b as usize)
+                .for_each(|&b| meet(a, b as usize));
+        }
+    }
+    let mut ready: BinaryHeap<Reverse<u32>> =
+        (0..members.len() as u32).filter(|&place| in_front[place as usize] == 0).map(Reverse).collect();
+    let mut order = Vec::with_capacity(members.len());
+    while let Some(Reverse(place)) = ready.pop() {
+        order.push(members[place as usize]);
+        for &next in &behind[place as usize] {
+            in_front[next as usize] -= 1;
+            if in_front[next as usize] == 0 {
+                ready.push(Reverse(next));
+            }
+        }
+    }
+    // Cells in a cycle stay as they were: heights that order all faces leave none.
+    let stuck = (0..members.len()).filter(|&place| in_front[place] > 0).map(|place| members[place]);
+    order.extend(stuck);
+    members.copy_from_slice(&order);
+}
+
+/// Whether the first of two cells is the nearer; `None` if they share no face or are seen edge-on, or one has no volume.
+fn nearer(cells: Cells<'_>, viewpoint: Viewpoint, first: [VertexId; 4], second: [VertexId; 4]) -> Option<bool> {
+    let mut apexes = first.iter().filter(|v| !second.contains(v));
+    let (&first_apex, None) = (apexes.next()?, apexes.next()) else { return None };
+    let &second_apex = second.iter().find(|v| !first.contains(v))?;
+    let mut face = first.iter().filter(|v| **v != first_apex).map(|v| cells.positions[v.index()]);
+    let face = [face.next()?, face.next()?, face.next()?];
+    let side = |p: glam::DVec3| orient3d(coord(face[0]), coord(face[1]), coord(face[2]), coord(p));
+    let [first_side, second_side] = [first_apex, second_apex].map(|v| side(cells.positions[v.index()]));
+    let eye_side = match viewpoint {
+        Viewpoint::Eye(eye) => side(eye),
+        Viewpoint::Direction(direction) => side_of_infinity(face, direction),
+    };
+    let are_apart = (first_side > 0.0 && second_side < 0.0) || (first_side < 0.0 && second_side > 0.0);
+    (are_apart && eye_side != 0.0).then_some((eye_side > 0.0) == (first_side > 0.0))
+}
+
+/// The sign of [`orient3d`] of a face and a point infinitely far against the direction; 0 below 1e-30 of what cancels.
+fn side_of_infinity(face: [glam::DVec3; 3], direction: glam::DVec3) -> f64 {
+    let edge = |k: usize| -> [Double; 3] { std::array::from_fn(|i| Double::difference(face[k][i], face[0][i])) };
+    let edges = [edge(1), edge(2)];
+    let volume = determinant([direction.to_array().map(Double::from), edges[0], edges[1]]).high;
+    let permanent = direction.abs().element_sum()
+        * edges.iter().map(|edge| edge.iter().map(|component| component.high.abs()).sum::<f64>()).product::<f64>();
+    if volume.abs() > ROUNDING * permanent { volume } else { 0.0 }
+}
