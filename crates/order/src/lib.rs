@@ -20,6 +20,7 @@
 //! Limits: the methods here ([`Unordered`], [`Bucket`], [`Centroid`]) sort by one point of a cell and may be wrong for neighbors of
 //! different shape; they say so in their guarantee. The crate knows no color and no pixel.
 
+mod bsp;
 mod bucket;
 mod centroid;
 mod method;
@@ -30,6 +31,7 @@ use glam::DVec3;
 use tetrascope_mesh::{CellId, TetMesh, VertexId};
 use tetrascope_view::Viewpoint;
 
+pub use bsp::{ArrowReport, BoundaryFragment, BspTree, TreeReport};
 pub use bucket::Bucket;
 pub use centroid::Centroid;
 pub use method::{OrderMethod, UnknownOrder};
