@@ -25,8 +25,8 @@ pub struct ArrowReport {
     pub is_complete: bool,
 }
 
-/// Pairs that tiles may offer per boundary face, and in any case. Meshes in use offer tens; only long thin triangles all across
-/// each other come near, and then a picture waits for some seconds instead of hours.
+/// Pairs that tiles may offer per boundary face, and in any case. Meshes in use offer tens; only long thin triangles
+/// all across each other come near, and then a picture waits for some seconds instead of hours.
 const CANDIDATES_PER_FACE: usize = 2000;
 const CANDIDATES: usize = 1 << 20;
 
@@ -68,9 +68,9 @@ impl BspTree {
     /// Gives the arrows that cross empty space: `sink(a, b)` where a ray leaves cell `a` through a boundary face and
     /// later enters cell `b` through another.
     ///
-    /// Every arrow is exact: there is such a ray. None is missing if the report says complete, but for overlaps narrower
-    /// than 1e-12 of the coordinates, at the edges of faces that the tree splits. Each comes once, ascending. The
-    /// same for any number of threads. See the module for what they are worth.
+    /// Every arrow is exact: there is such a ray. None is missing if the report says complete, but for overlaps
+    /// narrower than 1e-12 of the coordinates, at the edges of faces that the tree splits. Each comes once, ascending.
+    /// The same for any number of threads. See the module for what they are worth.
     pub fn arrows(&self, viewpoint: Viewpoint, sink: &mut dyn FnMut(CellId, CellId)) -> ArrowReport {
         let eye_sides = self.eye_sides(viewpoint);
         let ranks = self.ranks(viewpoint, &eye_sides);
@@ -109,17 +109,14 @@ impl BspTree {
                 .fold(
                     || (0, Vec::new()),
                     |(mut compared, mut found), exit| {
-                        tiles.meeting(&rectangles, &exit.rectangle, |member| {
+                        let is_behind = |member: u32| entries[member as usize].ranks.last >= exit.ranks.first;
+                        tiles.meeting(&rectangles, &exit.rectangle, is_behind, |member| {
                             let entry = &entries[member as usize];
-                            if entry.ranks.last < exit.ranks.first {
-                                return false;
-                            }
                             compared += 1;
                             if self.is_arrow(viewpoint, &eye_sides, exit, entry) {
                                 let cell = |face: u32| self.faces[face as usize].cell;
                                 found.push((cell(exit.face), cell(entry.face)));
                             }
-                            true
                         });
                         (compared, found)
                     },

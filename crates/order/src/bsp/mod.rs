@@ -1,38 +1,40 @@
 //! The relations between cells that do not touch: a binary space partition of the boundary.
 //!
-//! Cells that share a face know which of them is in front. On a ray through a mesh that is not convex there is also empty
-//! space: the ray leaves cell `a` through a boundary face, an *exit*, and enters cell `b` through another, an *entry*. Then
+//! Cells that share a face know which of them is in front. On a ray through a mesh that is not convex there is also
+//! empty space: the ray leaves cell `a` through a boundary face, an *exit*, and enters cell `b` through another, an
+//! *entry*. Then
 //! `a` comes before `b`, and no shared face says so. Source: [Comba 1999], who find these relations from a binary space
 //! partition of the boundary faces, made once; from an eye the tree gives its fragments front to back.
 //!
 //! **Which relations suffice.** Along a ray the cells come in runs that touch face to face, with gaps between. Faces
-//! order a run; one arrow from the last cell of a run to the first of the next orders the gap. So an order is
-//! right for all rays if it respects all faces and, for every exit and entry that follow each other on some ray, the arrow
-//! from the one's cell to the other's.
+//! order a run; one arrow from the last cell of a run to the first of the next orders the gap. So an order is right for
+//! all rays if it respects all faces and, for every exit and entry that follow each other on some ray, the arrow from
+//! the one's cell to the other's.
 //!
 //! **Which may not be added.** The fragments' order is one of many. A chain through all of them (what leaves at a
 //! fragment comes before what enters at any later one) is linear in the fragments, but claims too much. Let cell
 //! `b` hide cell `a` behind it, and let a plane of the tree, from some other part of the mesh, cut both askew. The near
-//! side holds a piece of `a`'s exit, the far side a piece of `b`'s entry: the chain wants `a` before `b`, the face between
-//! them `b` before `a`. No picture has this cycle, and it is common, since planes extend through the whole mesh. The same
-//! is true of a chain for each subtree.
+//! side holds a piece of `a`'s exit, the far side a piece of `b`'s entry: the chain wants `a` before `b`, the face
+//! between them `b` before `a`. No picture has this cycle, and it is common, since planes extend through the whole
+//! mesh. The same is true of a chain for each subtree.
 //!
-//! **What is done.** An arrow is given where an exit and an entry have a ray in common and the exit is in front, decided
-//! exactly for the two triangles. Every arrow is true of some ray, as is every arrow across a shared face; so a cycle
-//! among them is a cycle of the mesh, and never one of the method. All pairs in question are compared, also those with
-//! something between them: with `D` gaps on a ray there are about `D²/2` pairs where `D` would do. The tree decides which are
-//! in question: only an exit that comes before an entry. Of a convex part all entries come before all exits, and
-//! nothing is left to compare; otherwise tiles of the picture offer those that may overlap. The ranks in the tree also say
-//! which of two whole faces is in front; for faces that were split the two triangles are compared once more.
+//! **What is done.** An arrow is given where an exit and an entry have a ray in common and the exit is in front,
+//! decided exactly for the two triangles. Every arrow is true of some ray, as is every arrow across a shared face; so a
+//! cycle among them is a cycle of the mesh, and never one of the method. All pairs in question are compared, also those
+//! with something between them: with `D` gaps on a ray there are about `D²/2` pairs where `D` would do. The tree
+//! decides which are in question: only an exit that comes before an entry. Of a convex part all entries come before all
+//! exits, and nothing is left to compare; otherwise tiles of the picture offer those that may overlap. The ranks in the
+//! tree also say which of two whole faces is in front; for faces that were split the two triangles are compared once
+//! more.
 //!
 //! So what the tree cannot settle (it stops at a number of fragments and at a depth) costs time, and not correctness.
 //!
-//! Planes are those of boundary faces, and planes across an axis where there are many faces: a round surface has all of itself on one
-//! side of each of its faces, and its own planes would give a list instead of a tree.
+//! Planes are those of boundary faces, and planes across an axis where there are many faces: a round surface has all of
+//! itself on one side of each of its faces, and its own planes would give a list instead of a tree.
 //!
-//! Faces of three or more cells, and faces towards a cell without volume, count as boundary faces of each of their cells.
-//! Exits come before entries in the same plane, so that parts that touch without sharing faces are ordered too. Cells
-//! without volume have no arrows: no ray passes through them.
+//! Faces of three or more cells, and faces towards a cell without volume, count as boundary faces of each of their
+//! cells. Exits come before entries in the same plane, so that parts that touch without sharing faces are ordered too.
+//! Cells without volume have no arrows: no ray passes through them.
 
 mod arrows;
 mod overlap;
@@ -97,7 +99,8 @@ impl TreeReport {
 }
 
 impl BspTree {
-    /// Builds the tree. The same for any number of threads; at most 8 fragments a face and 200 planes above one another.
+    /// Builds the tree. The same for any number of threads; at most 8 fragments a face and 200 planes above one
+    /// another.
     ///
     /// - `cells`: corners in any order; cells may be without volume, points may be there twice
     /// - `adjacency`: of the same tetrahedra

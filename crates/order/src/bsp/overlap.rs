@@ -17,19 +17,19 @@ const EDGES: [[usize; 2]; 3] = [[0, 1], [1, 2], [2, 0]];
 
 /// Whether a ray from the eye passes through the inside of both. Exact: a common edge or corner is no overlap.
 ///
-/// Seen from the eye a triangle is a cone, and two cones have no inside in common if a plane through the eye parts them.
-/// If there is one, there is one through an edge of either or through a corner of each. The latter need not be
+/// Seen from the eye a triangle is a cone, and two cones have no inside in common if a plane through the eye parts
+/// them. If there is one, there is one through an edge of either or through a corner of each. The latter need not be
 /// tried where both cones lie in one half space (`is_narrow`): cut across, they are convex polygons.
 pub(super) fn overlap(viewpoint: Viewpoint, a: &Seen, b: &Seen, is_narrow: bool) -> bool {
     if beyond_an_edge(viewpoint, a, b) || beyond_an_edge(viewpoint, b, a) {
         return false;
     }
     is_narrow
+        || matches!(viewpoint, Viewpoint::Direction(_))
         || !a.points.iter().any(|&p| {
             b.points.iter().any(|&q| {
-                let Viewpoint::Eye(eye) = viewpoint else { return false };
                 let range = |seen: &Seen| {
-                    let sides = seen.points.map(|r| side_of([p, q, r], eye));
+                    let sides = seen.points.map(|r| eye_side([p, q, r], viewpoint));
                     (sides[0].min(sides[1]).min(sides[2]), sides[0].max(sides[1]).max(sides[2]))
                 };
                 let ((lowest_a, highest_a), (lowest_b, highest_b)) = (range(a), range(b));
@@ -50,8 +50,8 @@ fn beyond_an_edge(viewpoint: Viewpoint, a: &Seen, b: &Seen) -> bool {
 /// Whether some ray meets `front` before `back`, for two triangles that [`overlap`]. Exact.
 ///
 /// Triangles in one plane count as meeting in this order. If one triangle lies on one side of the other's plane, that
-/// decides. Else the corners of their overlap are looked at: corners of one that are seen inside the other, and edges that are
-/// seen to cross. Triangles that pierce each other are in front of each other.
+/// decides. Else the corners of their overlap are looked at: corners of one that are seen inside the other, and edges
+/// that are seen to cross. Triangles that pierce each other are in front of each other.
 pub(super) fn is_before(viewpoint: Viewpoint, front: &Seen, back: &Seen) -> bool {
     // The sides relative to the eye: 1 on its side.
     let sides = |plane: &Seen, other: &Seen| other.points.map(|p| side_of(plane.points, p) * plane.eye_side);

@@ -1,7 +1,7 @@
 //! Signs without rounding: on which side of a plane is a point, or the eye.
 
 use glam::DVec3;
-use robust::Coord3D;
+use robust::{Coord, Coord3D};
 use tetrascope_view::Viewpoint;
 
 /// The sign of `(a - p) · ((b - p) × (c - p))`: which side of the plane through `a`, `b`, `c` the point `p` is on.
@@ -15,6 +15,11 @@ pub(super) fn side_of([a, b, c]: [DVec3; 3], p: DVec3) -> i8 {
 /// The number whose sign [`side_of`] gives: six times a volume, of which the sign is exact and the rest nearly so.
 #[inline]
 pub(super) fn signed_volume([a, b, c]: [DVec3; 3], p: DVec3) -> f64 {
+    // Faces share points, and planes across axes hold many: the adaptive predicate takes its longest way to these
+    // zeros.
+    if p == a || p == b || p == c || (0..3).any(|i| a[i] == p[i] && b[i] == p[i] && c[i] == p[i]) {
+        return 0.0;
+    }
     robust::orient3d(coord(a), coord(b), coord(c), coord(p))
 }
 
@@ -22,6 +27,10 @@ pub(super) fn signed_volume([a, b, c]: [DVec3; 3], p: DVec3) -> f64 {
 /// direction. 0 where the plane is seen edge-on. The signs are those of [`side_of`].
 #[inline]
 pub(super) fn eye_side(points: [DVec3; 3], viewpoint: Viewpoint) -> i8 {
+    let [a, b, c] = points;
+    if a == b || b == c || c == a {
+        return 0;
+    }
     match viewpoint {
         Viewpoint::Eye(eye) => side_of(points, eye),
         Viewpoint::Direction(direction) => side_along(points, direction),
@@ -40,6 +49,13 @@ fn coord(p: DVec3) -> Coord3D<f64> {
 
 /// The sign of `direction · ((b - a) × (c - a))`.
 fn side_along([a, b, c]: [DVec3; 3], direction: DVec3) -> i8 {
+    // Along an axis, where many faces are seen edge-on, two coordinates decide.
+    for (i, j, k) in [(0, 1, 2), (1, 2, 0), (2, 0, 1)] {
+        if direction[i] == 0.0 && direction[j] == 0.0 {
+            let [a, b, c] = [a, b, c].map(|p| Coord { x: p[i], y: p[j] });
+            return sign(robust::orient2d(a, b, c)) * sign(direction[k]);
+        }
+    }
     let (u, v) = (b - a, c - a);
     let (mut determinant, mut magnitude) = (0.0, 0.0);
     for (i, j, k) in [(0, 1, 2), (1, 2, 0), (2, 0, 1)] {
@@ -47,7 +63,8 @@ fn side_along([a, b, c]: [DVec3; 3], direction: DVec3) -> i8 {
         determinant += direction[k] * (left - right);
         magnitude += direction[k].abs() * (left.abs() + right.abs());
     }
-    // Shewchuk's bound for the same determinant of four points, (7 + 56 ε) ε with ε = 2⁻⁵³: here one factor less is rounded.
+    // Shewchuk's bound for the same determinant of four points, (7 + 56 ε) ε with ε = 2⁻⁵³: here one factor less is
+    // rounded.
     if determinant.abs() > 7.772e-16 * magnitude && magnitude > 1e-250 {
         return sign(determinant);
     }

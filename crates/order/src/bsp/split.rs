@@ -78,8 +78,8 @@ impl Plane {
 
     /// Where a fragment is. Exact for a whole face, and for a piece of a face that does not cross the plane.
     ///
-    /// A piece has corners that were rounded. One that lies on one side but for [`ROUNDING`] is not split again, so that
-    /// corners on several planes make no slivers.
+    /// A piece has corners that were rounded. One that lies on one side but for [`ROUNDING`] is not split again, so
+    /// that corners on several planes make no slivers.
     pub(super) fn place(self, faces: &[Face], fragment: &Fragment) -> Place {
         let whole = place_of(faces[fragment.face as usize].points.map(|p| self.side(faces, p)));
         match whole {

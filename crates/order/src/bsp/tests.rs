@@ -22,10 +22,11 @@ struct Mesh {
 const WAYS: [[usize; 3]; 6] = [[0, 1, 2], [0, 2, 1], [1, 0, 2], [1, 2, 0], [2, 0, 1], [2, 1, 0]];
 
 impl Mesh {
-    /// Cubes of side 1, each cut into six tetrahedra along its diagonal; points moved by up to `jitter` along each axis.
+    /// Cubes of side 1, each cut into six tetrahedra along its diagonal; points moved by up to `jitter` along each
+    /// axis.
     ///
-    /// Without jitter the cells are those of a regular triangulation of space, some left out, so there is no cycle; a jitter
-    /// of a few percent leaves the lifted cells convex.
+    /// Without jitter the cells are those of a regular triangulation of space, some left out, so there is no cycle; a
+    /// jitter of a few percent leaves the lifted cells convex.
     fn cubes(size: i32, jitter: f64, is_full: impl Fn(IVec3) -> bool) -> Self {
         let mut mesh = Self::default();
         let mut numbers = BTreeMap::new();
@@ -82,8 +83,11 @@ fn noise(seed: u64) -> DVec3 {
     DVec3::new(number(0), number(1), number(2))
 }
 
+/// A name, the side of a box in cubes, and which of these are there.
+type Shape = (&'static str, i32, fn(IVec3) -> bool);
+
 /// Shapes in a box of cubes, each with gaps along some ray.
-fn shapes() -> Vec<(&'static str, i32, fn(IVec3) -> bool)> {
+fn shapes() -> Vec<Shape> {
     vec![
         ("two parts", 5, |p| p.x < 2 || p.x > 2 && p.y < 3),
         ("through-hole", 4, |p| !(p.x == 1 || p.x == 2) || p.y != 1),
@@ -223,7 +227,7 @@ fn check_order(name: &str, mesh: &Mesh, size: f64) {
         let mut arrows = arrows_across_faces(mesh, &adjacency, viewpoint);
         arrows.extend(across);
         let places = places(mesh.tetrahedra.len(), &arrows).unwrap_or_else(|| panic!("cycle: {name}, {viewpoint:?}"));
-        for r in 0..60 {
+        for r in 0..25 {
             let target = DVec3::splat(0.5 * size) + noise((v * 1000 + r) as u64) * 0.5 * size;
             let (origin, direction, from) = match viewpoint {
                 Viewpoint::Eye(eye) => (eye, (target - eye).normalize_or(DVec3::X), 0.0),
@@ -236,7 +240,7 @@ fn check_order(name: &str, mesh: &Mesh, size: f64) {
             }
         }
     }
-    assert!(pairs > 500, "{name}: only {pairs} pairs seen");
+    assert!(pairs > 200, "{name}: only {pairs} pairs seen");
 }
 
 #[test]
@@ -472,7 +476,9 @@ proptest! {
 
     /// Random cubes out of a box, from random eyes: as all pairs.
     #[test]
-    fn arrows_are_those_of_all_pairs(full in prop::collection::vec(any::<bool>(), 27), eye in point(), far: bool, jitter in 0.0..0.05) {
+    fn arrows_are_those_of_all_pairs(
+        full in prop::collection::vec(any::<bool>(), 27), eye in point(), far: bool, jitter in 0.0..0.05,
+    ) {
         let mesh = Mesh::cubes(3, jitter, |p| full[(p.x + 3 * p.y + 9 * p.z) as usize]);
         let adjacency = FaceAdjacency::new(&mesh.tetrahedra);
         let tree = BspTree::new(mesh.cells(), &adjacency);

@@ -80,8 +80,10 @@ impl Sheets {
             Self::Cube(eye) => {
                 let relative = points.map(|p| p - eye);
                 for sheet in 0..SHEETS {
-                    if let Some(rectangle) = seen_through(sheet, &relative) {
-                        sink(rectangle);
+                    let Some(rectangle) = seen_through(sheet, &relative) else { continue };
+                    sink(rectangle);
+                    if rectangle.is_whole {
+                        break;
                     }
                 }
             }
@@ -93,7 +95,7 @@ impl Sheets {
 fn seen_through(sheet: usize, points: &[DVec3; 3]) -> Option<Rectangle> {
     let axis = sheet / 2;
     let (u, v) = ((axis + 1) % 3, (axis + 2) % 3);
-    let facing = if sheet % 2 == 0 { 1.0 } else { -1.0 };
+    let facing = if sheet.is_multiple_of(2) { 1.0 } else { -1.0 };
     // Depth last; what lies in the pyramid |x|, |y| <= z is seen.
     let own = points.map(|p| DVec3::new(p[u], p[v], facing * p[axis]));
     if own.iter().all(|p| p.z <= 0.0) {
@@ -102,15 +104,19 @@ fn seen_through(sheet: usize, points: &[DVec3; 3]) -> Option<Rectangle> {
     if own.iter().all(|p| p.x.abs().max(p.y.abs()) <= p.z && p.z > 0.0) {
         return Some(Rectangle::around(own.iter().map(|p| [p.x / p.z, p.y / p.z]), sheet, true).widened(MARGIN));
     }
-    let mut polygon = own.to_vec();
     // A little wider, so that rounding loses nothing at the cube's edges.
     let wide = 1.0 + CLIPPED_MARGIN;
-    for (i, sign) in [(0, 1.0), (0, -1.0), (1, 1.0), (1, -1.0)] {
-        let inside = |p: DVec3| wide * p.z - sign * p[i];
+    let inside = |p: DVec3, (i, sign): (usize, f64)| wide * p.z - sign * p[i];
+    let edges = [(0, 1.0), (0, -1.0), (1, 1.0), (1, -1.0)];
+    if edges.iter().any(|&edge| own.iter().all(|&p| inside(p, edge) < 0.0)) {
+        return None;
+    }
+    let mut polygon = own.to_vec();
+    for edge in edges {
         let mut clipped = Vec::with_capacity(polygon.len() + 1);
         for (k, &p) in polygon.iter().enumerate() {
             let q = polygon[(k + 1) % polygon.len()];
-            let (a, b) = (inside(p), inside(q));
+            let (a, b) = (inside(p, edge), inside(q, edge));
             if a >= 0.0 {
                 clipped.push(p);
             }
@@ -143,7 +149,8 @@ pub(super) struct Tiles {
 }
 
 impl Tiles {
-    /// Tiles over rectangles of one sheet; tiles keep the order of `rectangles`. At most about eight places a rectangle.
+    /// Tiles over rectangles of one sheet; tiles keep the order of `rectangles`. At most about eight places a
+    /// rectangle.
     pub(super) fn new(rectangles: &[Rectangle]) -> Self {
         let empty = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
         let (low, high) = rectangles.iter().fold(empty, |(low, high), r| {
@@ -224,21 +231,30 @@ impl Tiles {
 
     /// Visits the members (indices into the rectangles that the tiles were made of) that meet a rectangle, each once.
     ///
-    /// - `visit`: says whether to go on in this tile
-    pub(super) fn meeting(&self, rectangles: &[Rectangle], rectangle: &Rectangle, mut visit: impl FnMut(u32) -> bool) {
+    /// - `goes_on`: whether this member of a tile, and those after it, are wanted
+    pub(super) fn meeting(
+        &self,
+        rectangles: &[Rectangle],
+        rectangle: &Rectangle,
+        goes_on: impl Fn(u32) -> bool,
+        mut visit: impl FnMut(u32),
+    ) {
         if self.members.is_empty() {
             return;
         }
         let [columns, rows] = self.covered(rectangle);
         self.each(rectangle, |tile| {
             let (row, column) = (tile / self.side, tile % self.side);
-            for &member in &self.members[self.starts[tile] as usize..self.starts[tile + 1] as usize] {
+            let members = &self.members[self.starts[tile] as usize..self.starts[tile + 1] as usize];
+            for &member in members.iter().take_while(|&&member| goes_on(member)) {
                 let other = &rectangles[member as usize];
-                let [other_columns, other_rows] = self.covered(other);
+                if !rectangle.meets(other) {
+                    continue;
+                }
                 // Both are in every tile that they share; the first of these is the one that counts.
-                let is_first = column == columns[0].max(other_columns[0]) && row == rows[0].max(other_rows[0]);
-                if is_first && rectangle.meets(other) && !visit(member) {
-                    break;
+                let [other_columns, other_rows] = self.covered(other);
+                if column == columns[0].max(other_columns[0]) && row == rows[0].max(other_rows[0]) {
+                    visit(member);
                 }
             }
         });

@@ -113,8 +113,8 @@ impl Tree {
         index
     }
 
-    /// Goes through all nodes that have fragments, the near side of each plane before the plane, and that before the far
-    /// side. `visit` gets the faces of a node's fragments and whether they lie in one plane.
+    /// Goes through all nodes that have fragments, the near side of each plane before the plane, and that before the
+    /// far side. `visit` gets the faces of a node's fragments and whether they lie in one plane.
     ///
     /// - `eye_side`: the side of a plane that the eye is on
     pub(super) fn walk(&self, eye_side: impl Fn(Plane) -> i8, mut visit: impl FnMut(&[u32], bool)) {
