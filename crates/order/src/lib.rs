@@ -23,6 +23,7 @@
 //! Limits: cells with a gap of the mesh between them are ordered by their centroids; rings of cells are found and reported, not
 //! drawn rightly. The crate knows no color and no pixel.
 
+mod bsp;
 mod bucket;
 mod centroid;
 mod cycles;
@@ -37,6 +38,7 @@ use glam::DVec3;
 use tetrascope_mesh::{CellId, TetMesh, VertexId};
 use tetrascope_view::Viewpoint;
 
+pub use bsp::{ArrowReport, BoundaryFragment, BspTree, TreeReport};
 pub use bucket::Bucket;
 pub use centroid::Centroid;
 pub use method::{OrderMethod, UnknownOrder};
