@@ -20,8 +20,11 @@
 //! [`Mpvo`] is right for all neighbors. [`Bucket`] and [`Centroid`] sort by one point of a cell and may be wrong for neighbors of
 //! different shape; they say so in their guarantee. [`misordered_faces`] counts how often any of them is.
 //!
-//! Limits: cells with a gap of the mesh between them are ordered by their centroids; rings of cells are found and reported, not
-//! drawn rightly. The crate knows no color and no pixel.
+//! [`Power`] sorts by one key a cell and proves for a mesh that it is exact, or says that it is not. [`BspTree`] finds what lies in
+//! front of what across the gaps of a mesh. Both are parts for renderers of one's own: no [`OrderMethod`] takes them yet.
+//!
+//! Limits: in [`Mpvo`] cells with a gap of the mesh between them are ordered by their centroids; rings of cells are found and
+//! reported, not drawn rightly. The crate knows no color and no pixel.
 
 mod bsp;
 mod bucket;
