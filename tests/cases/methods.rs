@@ -54,7 +54,7 @@ const COLOR: &[[f64; 4]] = &[[-1.0, 0.9, 0.1, 0.2], [0.0, 0.1, 0.8, 0.3], [0.8, 
 const EXTINCTION: &[[f64; 2]] = &[[-1.0, 0.0], [-0.4, 3.0], [0.0, 0.2], [0.5, 2.0], [1.0, 0.6]];
 
 /// With isosurfaces light is added in every model, also in those whose volume adds none, and each surface has its own shading beside
-/// others and in a lit volume. Few pixels differ: those in which a ray meets a surface right at a face of a cell, or grazes it.
+/// others and in a lit volume. Tolerance 5e-5: the fast renderer's surfaces lie 1e-5 of a cell's range beside.
 #[test]
 fn fast_renderer_has_every_method_with_isosurfaces_and_light() {
     let surface = |value, opacity, shading| tetrascope::Isosurface { shading, ..white(value, opacity) };
@@ -73,7 +73,8 @@ fn fast_renderer_has_every_method_with_isosurfaces_and_light() {
             let fast = Renderer::Fast(integration).draw(&mesh, &tets.scalars, &plan);
             let slow = Renderer::Reference(integration).draw(&mesh, &tets.scalars, &plan);
             let found = difference(&fast, &slow, 5e-5, &[]);
-            assert!(found.beyond <= 3, "{integration}, {model}, lit {volume}: {found:?}");
+            println!("isosurfaces, {integration}, {model}, lit {volume}: {found:?}");
+            assert_eq!(found.beyond, 0, "{integration}, {model}, lit {volume}: {found:?}");
         }
     }
 }

@@ -50,7 +50,7 @@ const CASES: &[Case] = &[
     Case {
         name: "bluntfin-isosurfaces",
         reference_within: 1e-5,
-        fast: Some(Fast { within: 5e-4, but_for: 0.003, at_most: 1.0 }),
+        fast: Some(Fast { within: 1e-4, but_for: 0.0, at_most: 1e-4 }),
         leave_out: &[],
     },
     Case {

@@ -212,6 +212,8 @@ fn maps_are_exact_at_the_boundaries_of_their_texels() {
             &[],
         );
         assert!((axis.boundary(value) - value).abs() <= 1.0001 * (hi - lo) / f64::from(size), "{size}");
-        assert!(found.beyond <= 2, "{size} texels, {value} at {}: {found:?}", axis.boundary(value));
+        println!("map of {size} texels, {value}: {found:?}");
+        // One ray in all of them grazes the surface.
+        assert!(found.beyond <= 1, "{size} texels, {value} at {}: {found:?}", axis.boundary(value));
     }
 }
