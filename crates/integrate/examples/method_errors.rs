@@ -5,6 +5,8 @@
 
 #![expect(clippy::print_stdout, reason = "printing is the purpose")]
 
+mod families;
+
 use tetrascope_integrate::{
     OpticalModel, RgbaAssoc, RunningIntegrals, Segment, TransferFunction, TransferFunctionError, average, exact,
     opacity_2d, partial,
@@ -71,20 +73,8 @@ fn errors(transfer: &TransferFunction, method: &Method, widest: f64) -> (f64, f6
 }
 
 fn transfer_functions() -> Result<Vec<(&'static str, TransferFunction)>, TransferFunctionError> {
-    let color = [[0.0, 0.1, 0.2, 0.9], [0.5, 0.9, 0.9, 0.8], [1.0, 0.9, 0.2, 0.1]];
-    let tent = |center: f64, half: f64, height: f64| [[center - half, 0.0], [center, height], [center + half, 0.0]];
-    let tents = [tent(0.2, 0.05, 50.0), tent(0.5, 0.05, 50.0), tent(0.8, 0.05, 50.0)].concat();
-    let edge = 1.0 / 256.0;
-    let noise = |i: u32| (f64::from(i) * 0.618_033_988_75).fract();
-    let table: Vec<_> = (0..256).map(|i| [f64::from(i) / 255.0, 10.0 * noise(i * i)]).collect();
-    [
-        ("ramp", vec![[0.0, 0.0], [1.0, 10.0]]),
-        ("tents", tents),
-        ("shell", tent(0.5, 1.0 / 128.0, 400.0).to_vec()),
-        ("box", vec![[0.3, 0.0], [0.3 + edge, 20.0], [0.7, 20.0], [0.7 + edge, 0.0]]),
-        ("table", table),
-    ]
-    .into_iter()
-    .map(|(name, extinction)| Ok((name, TransferFunction::new(&color, &extinction)?)))
-    .collect()
+    families::extinctions()
+        .into_iter()
+        .map(|(name, extinction)| Ok((name, TransferFunction::new(&families::COLOR, &extinction)?)))
+        .collect()
 }

@@ -5,6 +5,8 @@
 
 #![expect(clippy::print_stdout, reason = "printing is the purpose")]
 
+mod families;
+
 use std::error::Error;
 
 use tetrascope_integrate::{
@@ -57,20 +59,5 @@ fn column(deviation: Deviation) -> String {
 
 /// Those of the README's error tables, see the example `method_errors`.
 fn transfer_functions() -> Result<Vec<TransferFunction>, TransferFunctionError> {
-    let color = [[0.0, 0.1, 0.2, 0.9], [0.5, 0.9, 0.9, 0.8], [1.0, 0.9, 0.2, 0.1]];
-    let tent = |center: f64, half: f64, height: f64| [[center - half, 0.0], [center, height], [center + half, 0.0]];
-    let tents = [tent(0.2, 0.05, 50.0), tent(0.5, 0.05, 50.0), tent(0.8, 0.05, 50.0)].concat();
-    let edge = 1.0 / 256.0;
-    let noise = |i: u32| (f64::from(i) * 0.618_033_988_75).fract();
-    let table: Vec<_> = (0..256).map(|i| [f64::from(i) / 255.0, 10.0 * noise(i * i)]).collect();
-    [
-        vec![[0.0, 0.0], [1.0, 10.0]],
-        tents,
-        tent(0.5, 1.0 / 128.0, 400.0).to_vec(),
-        vec![[0.3, 0.0], [0.3 + edge, 20.0], [0.7, 20.0], [0.7 + edge, 0.0]],
-        table,
-    ]
-    .into_iter()
-    .map(|extinction| TransferFunction::new(&color, &extinction))
-    .collect()
+    families::extinctions().iter().map(|(_, extinction)| TransferFunction::new(&families::COLOR, extinction)).collect()
 }

@@ -1,5 +1,8 @@
 //! Pre-integration tables: entries against the exact integral, look-ups against closed forms, errors, and lanes.
 
+#[path = "../examples/families/mod.rs"]
+mod families;
+
 use std::sync::Mutex;
 
 use proptest::prelude::*;
@@ -30,21 +33,9 @@ pub(crate) fn table_2d(transfer: &TransferFunction, model: OpticalModel, scalars
 
 /// The transfer functions of the README's error tables.
 fn transfer_functions() -> Vec<(&'static str, TransferFunction)> {
-    let color = [[0.0, 0.1, 0.2, 0.9], [0.5, 0.9, 0.9, 0.8], [1.0, 0.9, 0.2, 0.1]];
-    let tent = |center: f64, half: f64, height: f64| [[center - half, 0.0], [center, height], [center + half, 0.0]];
-    let tents = [tent(0.2, 0.05, 50.0), tent(0.5, 0.05, 50.0), tent(0.8, 0.05, 50.0)].concat();
-    let edge = 1.0 / 256.0;
-    let noise = |i: u32| (f64::from(i) * 0.618_033_988_75).fract();
-    let table: Vec<_> = (0..256).map(|i| [f64::from(i) / 255.0, 10.0 * noise(i * i)]).collect();
-    [
-        ("ramp", vec![[0.0, 0.0], [1.0, 10.0]]),
-        ("tents", tents),
-        ("shell", tent(0.5, 1.0 / 128.0, 400.0).to_vec()),
-        ("box", vec![[0.3, 0.0], [0.3 + edge, 20.0], [0.7, 20.0], [0.7 + edge, 0.0]]),
-        ("random", table),
-    ]
-    .map(|(name, extinction)| (name, TransferFunction::new(&color, &extinction).unwrap()))
-    .into()
+    families::extinctions()
+        .map(|(name, extinction)| (name, TransferFunction::new(&families::COLOR, &extinction).unwrap()))
+        .into()
 }
 
 /// Steps on samples and between them, a thin peak, and a stretch without extinction.
