@@ -54,6 +54,6 @@ impl VisibilityOrder for Bucket {
             front_to_back[*next] = cell;
             *next += 1;
         }
-        Order { front_to_back, guarantee: Guarantee::Approximate, cycles: Vec::new() }
+        Order::whole(front_to_back, Guarantee::Approximate)
     }
 }

@@ -18,7 +18,7 @@ pub struct Centroid;
 impl VisibilityOrder for Centroid {
     fn order(&self, cells: Cells<'_>, viewpoint: Viewpoint, drawn: &[CellId]) -> Order {
         let front_to_back = nearest_first(cells, viewpoint, drawn);
-        Order { front_to_back, guarantee: Guarantee::Approximate, cycles: Vec::new() }
+        Order::whole(front_to_back, Guarantee::Approximate)
     }
 }
 

@@ -2,18 +2,20 @@
 //!
 //! Every method is a [`VisibilityOrder`]: it is given the points and cells of a mesh, where rays come from, and which cells are
 //! to be drawn; it gives an [`Order`], a permutation of those cells from front to back, with a [`Guarantee`] that says
-//! how far it can be trusted. [`OrderMethod`] names the methods as a scene file does and makes them.
+//! how far it can be trusted. [`OrderMethod`] names the methods as a scene file does; [`MeshVisibility`] makes them and knows which one a mesh
+//! needs.
 //!
 //! ```
 //! use glam::DVec3;
 //! use tetrascope_mesh::{CellId, VertexId};
-//! use tetrascope_order::{Cells, OrderMethod, VisibilityOrder};
+//! use tetrascope_order::{Cells, MeshVisibility, OrderMethod};
 //! use tetrascope_view::Viewpoint;
 //!
 //! let points = [DVec3::ZERO, DVec3::X, DVec3::Y, DVec3::Z, DVec3::splat(1.0)];
 //! let tetrahedra = [[0, 1, 2, 3].map(VertexId), [1, 2, 3, 4].map(VertexId)];
 //! let cells = Cells { positions: &points, tetrahedra: &tetrahedra };
-//! let order = OrderMethod::Mpvo.prepare(cells).order(cells, Viewpoint::Eye(DVec3::splat(9.0)), &[CellId(0), CellId(1)]);
+//! let mpvo = MeshVisibility::new().prepare(cells, OrderMethod::Mpvo);
+//! let order = mpvo.order(cells, Viewpoint::Eye(DVec3::splat(9.0)), &[CellId(0), CellId(1)]);
 //! assert_eq!(order.front_to_back, [CellId(1), CellId(0)]);
 //! ```
 //!
@@ -27,28 +29,35 @@
 //! reported, not drawn rightly. The crate knows no color and no pixel.
 
 mod bsp;
+mod bsp_xmpvo;
 mod bucket;
 mod centroid;
+mod convex;
 mod cycles;
 mod method;
 mod mpvo;
 mod power;
 mod radix;
+mod remedy;
 mod sides;
 mod unordered;
+mod visibility;
 
 use glam::DVec3;
 use tetrascope_mesh::{CellId, TetMesh, VertexId};
 use tetrascope_view::Viewpoint;
 
 pub use bsp::{ArrowReport, BoundaryFragment, BspTree, TreeReport};
+pub use bsp_xmpvo::BspXmpvo;
 pub use bucket::Bucket;
 pub use centroid::Centroid;
-pub use method::{OrderMethod, UnknownOrder};
+pub use method::{OrderMethod, PixelSort, UnknownOrder};
 pub use mpvo::{Mpvo, misordered_faces};
 pub use power::{Budget, HeightSource, Heights, Power, PowerCertificate};
 pub use radix::{sort_by_key, sortable_bits};
+pub use remedy::{CycleRemedy, UnknownRemedy};
 pub use unordered::Unordered;
+pub use visibility::{MeshVisibility, OrderChoice};
 
 /// The geometry that an order looks at: points and the tetrahedra over them.
 #[derive(Clone, Copy, Debug)]
@@ -74,16 +83,45 @@ impl Cells<'_> {
     }
 }
 
-/// A permutation of cells, and what it is worth.
+/// Cells from front to back, and what that is worth.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Order {
-    /// The cells that were asked for, each once, the nearest first.
+    /// The cells that were asked for, the nearest first: each once, or as often as it has pieces.
     pub front_to_back: Vec<CellId>,
+    /// Cells that were cut, one entry a piece, by ascending place. None unless [`Self::cut_cycles`] made them.
+    pub pieces: Vec<Piece>,
     /// How far the permutation can be trusted.
     pub guarantee: Guarantee,
     /// Rings of cells that hide one another, among all cells of the mesh, where the method looks for them: no order of whole cells is
-    /// right there. Each as its cells, ascending.
+    /// right there. Each as its cells, ascending; rings that share a cell are one. In [`Self::front_to_back`] a ring's cells come one right
+    /// after the other, by the distance of their centroids.
     pub cycles: Vec<Vec<CellId>>,
+}
+
+/// A part of a cell that was cut.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Piece {
+    /// Its place in [`Order::front_to_back`].
+    pub place: u32,
+    /// What cuts it: a point of the cell belongs to the piece if it lies behind all these planes. Two pieces that meet in a plane have
+    /// it with the same point and opposite normals.
+    pub planes: Vec<CutPlane>,
+}
+
+/// A plane; what lies behind it is kept.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct CutPlane {
+    /// A point of the plane, in the coordinates of the cells.
+    pub point: DVec3,
+    /// Away from what is kept, of any length but 0.
+    pub normal: DVec3,
+}
+
+impl Order {
+    /// Whole cells in an order without rings.
+    pub fn whole(front_to_back: Vec<CellId>, guarantee: Guarantee) -> Self {
+        Self { front_to_back, pieces: Vec::new(), guarantee, cycles: Vec::new() }
+    }
 }
 
 /// How far an order can be trusted.
@@ -97,6 +135,8 @@ pub enum Guarantee {
     /// Of two cells that share a face the nearer one comes first, but for the cells in [`Order::cycles`]: right where the mesh is
     /// convex. Across gaps of the mesh it is a guess.
     Faces,
+    /// Of two cells on one ray the nearer one comes first, but for the cells in [`Order::cycles`].
+    Exact,
 }
 
 /// A way to sort cells by visibility.

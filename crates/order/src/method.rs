@@ -3,39 +3,61 @@
 use std::fmt;
 use std::str::FromStr;
 
-use crate::{Bucket, Cells, Centroid, Mpvo, Unordered, VisibilityOrder};
+use crate::Bucket;
 
-/// A visibility order by the name that scene files use.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+/// How cells come to be blended in the right order, by the name that scene files use.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum OrderMethod {
-    /// [`Unordered`].
+    /// [`Unordered`](crate::Unordered).
     None,
     /// [`Bucket`].
     Bucket {
         /// Number of slabs.
         slabs: u32,
     },
-    /// [`Centroid`].
+    /// [`Centroid`](crate::Centroid).
     Centroid,
-    /// [`Mpvo`].
+    /// [`Power`](crate::Power).
+    Power,
+    /// [`Mpvo`](crate::Mpvo).
     Mpvo,
+    /// [`BspXmpvo`](crate::BspXmpvo).
+    BspXmpvo,
+    /// [`Centroid`](crate::Centroid), and every pixel sorts anew within a window of this many cells ([Callahan 2005]).
+    KBuffer {
+        /// Cells that a pixel holds back, one or more.
+        window: u32,
+    },
+    /// No order of cells: every pixel sorts what its ray meets.
+    PerPixel,
+}
+
+/// What a back end does pixel by pixel, besides taking cells in the order that they come in.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum PixelSort {
+    /// Nothing: cells are blended as they come.
+    None,
+    /// Holds so many segments back and blends the nearest of them when another one comes.
+    Window(u32),
+    /// Holds all back and sorts them.
+    All,
 }
 
 impl OrderMethod {
-    /// The names of all methods that are here.
-    pub const NAMES: &'static [&'static str] = &["none", "bucket", "centroid", "mpvo"];
+    /// The names of all methods.
+    pub const NAMES: &'static [&'static str] =
+        &["none", "bucket", "centroid", "power", "mpvo", "bsp-xmpvo", "k-buffer", "per-pixel"];
 
-    /// Names of the scene file's specification whose methods are not here yet.
-    const PLANNED: &'static [&'static str] = &["power", "bsp-xmpvo", "k-buffer", "per-pixel"];
+    /// The usual window of `k-buffer`: the larger of the two that [Callahan 2005] have.
+    pub const DEFAULT_WINDOW: u32 = 6;
 
-    /// The method, ready for a mesh: what it has to know of the mesh it learns here, once.
-    pub fn prepare(self, cells: Cells<'_>) -> Box<dyn VisibilityOrder> {
+    /// What is left to the pixels.
+    pub const fn pixel_sort(self) -> PixelSort {
         match self {
-            Self::None => Box::new(Unordered),
-            Self::Bucket { slabs } => Box::new(Bucket { slabs }),
-            Self::Centroid => Box::new(Centroid),
-            Self::Mpvo => Box::new(Mpvo::new(cells)),
+            Self::KBuffer { window } => PixelSort::Window(window),
+            Self::PerPixel => PixelSort::All,
+            _ => PixelSort::None,
         }
     }
 }
@@ -46,27 +68,21 @@ impl fmt::Display for OrderMethod {
             Self::None => "none",
             Self::Bucket { .. } => "bucket",
             Self::Centroid => "centroid",
+            Self::Power => "power",
             Self::Mpvo => "mpvo",
+            Self::BspXmpvo => "bsp-xmpvo",
+            Self::KBuffer { .. } => "k-buffer",
+            Self::PerPixel => "per-pixel",
         })
     }
 }
 
-/// A name that is no visibility order here.
+/// A name that is no visibility order.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[non_exhaustive]
-pub enum UnknownOrder {
-    /// The specification knows the name, this version does not have the method.
-    #[error("the visibility order \"{name}\" is not in this version; use one of {}", OrderMethod::NAMES.join(", "))]
-    NotYet {
-        /// The name given.
-        name: String,
-    },
-    /// Nobody knows the name.
-    #[error("there is no visibility order \"{name}\"; use one of {}", OrderMethod::NAMES.join(", "))]
-    NoSuchName {
-        /// The name given.
-        name: String,
-    },
+#[error("there is no visibility order \"{name}\"; use one of {}", OrderMethod::NAMES.join(", "))]
+pub struct UnknownOrder {
+    /// The name given.
+    pub name: String,
 }
 
 impl FromStr for OrderMethod {
@@ -77,9 +93,12 @@ impl FromStr for OrderMethod {
             "none" => Ok(Self::None),
             "bucket" => Ok(Self::Bucket { slabs: Bucket::DEFAULT_SLABS }),
             "centroid" => Ok(Self::Centroid),
+            "power" => Ok(Self::Power),
             "mpvo" => Ok(Self::Mpvo),
-            _ if Self::PLANNED.contains(&name) => Err(UnknownOrder::NotYet { name: name.to_owned() }),
-            _ => Err(UnknownOrder::NoSuchName { name: name.to_owned() }),
+            "bsp-xmpvo" => Ok(Self::BspXmpvo),
+            "k-buffer" => Ok(Self::KBuffer { window: Self::DEFAULT_WINDOW }),
+            "per-pixel" => Ok(Self::PerPixel),
+            _ => Err(UnknownOrder { name: name.to_owned() }),
         }
     }
 }

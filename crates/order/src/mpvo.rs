@@ -1,5 +1,7 @@
 //! Meshed polyhedra visibility ordering: neighbors sorted by the planes of the faces between them.
 
+use std::sync::Arc;
+
 use rayon::prelude::*;
 use tetrascope_mesh::{CellId, FaceAdjacency};
 use tetrascope_view::Viewpoint;
@@ -25,8 +27,8 @@ use crate::{Cells, Guarantee, Order, VisibilityOrder};
 /// back; his heuristic for meshes that are not convex sorts the boundary alone.
 #[derive(Clone, Debug)]
 pub struct Mpvo {
-    adjacency: FaceAdjacency,
-    sides: FaceSides,
+    adjacency: Arc<FaceAdjacency>,
+    sides: Arc<FaceSides>,
 }
 
 /// How far the search has come with a cell, in the bits above those for its corners: one byte a cell is all that it touches.
@@ -39,6 +41,10 @@ impl Mpvo {
     pub fn new(cells: Cells<'_>) -> Self {
         let adjacency = FaceAdjacency::new(cells.tetrahedra);
         let sides = FaceSides::new(cells, &adjacency);
+        Self::with_parts(Arc::new(adjacency), Arc::new(sides))
+    }
+
+    pub(crate) fn with_parts(adjacency: Arc<FaceAdjacency>, sides: Arc<FaceSides>) -> Self {
         Self { adjacency, sides }
     }
 
@@ -104,7 +110,7 @@ impl VisibilityOrder for Mpvo {
         } else {
             Vec::new()
         };
-        Order { front_to_back, guarantee: Guarantee::Faces, cycles }
+        Order { cycles, ..Order::whole(front_to_back, Guarantee::Faces) }
     }
 }
 

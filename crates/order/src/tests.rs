@@ -40,7 +40,7 @@ proptest! {
         // Every second cell is drawn.
         let drawn: Vec<_> = all(places.len()).into_iter().step_by(2).collect();
         for method in METHODS {
-            let mut ordered = method.prepare(cells).order(cells, view, &drawn).front_to_back;
+            let mut ordered = MeshVisibility::new().prepare(cells, method).order(cells, view, &drawn).front_to_back;
             ordered.sort();
             prop_assert_eq!(&ordered, &drawn);
         }
@@ -99,7 +99,7 @@ fn all_cells_at_one_depth_stay_as_they_come() {
     let (points, tetrahedra) = row(&[DVec3::ZERO; 5]);
     let cells = Cells { positions: &points, tetrahedra: &tetrahedra };
     for method in METHODS {
-        let order = method.prepare(cells).order(cells, Viewpoint::Direction(DVec3::Z), &all(5));
+        let order = MeshVisibility::new().prepare(cells, method).order(cells, Viewpoint::Direction(DVec3::Z), &all(5));
         assert_eq!(order.front_to_back, all(5), "{method}");
     }
 }

@@ -11,6 +11,6 @@ pub struct Unordered;
 
 impl VisibilityOrder for Unordered {
     fn order(&self, _: Cells<'_>, _: Viewpoint, drawn: &[CellId]) -> Order {
-        Order { front_to_back: drawn.to_vec(), guarantee: Guarantee::Unsorted, cycles: Vec::new() }
+        Order::whole(drawn.to_vec(), Guarantee::Unsorted)
     }
 }

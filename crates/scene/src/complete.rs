@@ -4,7 +4,7 @@ mod quality;
 mod surfaces;
 
 use glam::DVec3;
-use tetrascope_order::OrderMethod;
+use tetrascope_order::{CycleRemedy, OrderMethod};
 use tetrascope_view::{Camera, Projection};
 
 use crate::file::{Choice, ProjectionName, SceneFile};
@@ -66,6 +66,7 @@ impl SceneFile {
             },
             tables: None,
             order,
+            cycles: CycleRemedy::Report,
             backend: file.quality.backend,
             threads: None,
         };

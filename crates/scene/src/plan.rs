@@ -7,7 +7,7 @@ use glam::DVec3;
 use tetrascope_integrate::{
     Integration, Isosurfaces, OpticalModel, Phong, SurfaceShading, TableSettings, TransferFunction,
 };
-use tetrascope_order::OrderMethod;
+use tetrascope_order::{CycleRemedy, OrderMethod};
 use tetrascope_view::View;
 
 /// What is to be computed for one picture: numbers and methods, no file names and no "auto".
@@ -34,6 +34,8 @@ pub struct Plan {
     pub lighting: Option<Lighting>,
     /// In which order cells are blended.
     pub order: OrderMethod,
+    /// What is done about cells that hide one another in rings, where the order finds them.
+    pub cycles: CycleRemedy,
     /// Who computes.
     pub backend: Backend,
     /// Number of threads; `None` leaves it to the back end, which takes one a core.
@@ -141,6 +143,7 @@ impl Plan {
             isosurfaces: None,
             lighting: None,
             order: OrderMethod::Centroid,
+            cycles: CycleRemedy::Report,
             backend: Backend::Cpu,
             threads: None,
             termination: 0.0,

@@ -4,7 +4,7 @@ mod light;
 mod methods;
 
 use tetrascope_integrate::{Integration, Isosurface, Isosurfaces, OpticalModel, TableSettings, TransferFunction};
-use tetrascope_order::OrderMethod;
+use tetrascope_order::{CycleRemedy, OrderMethod};
 use tetrascope_view::{Camera, View};
 
 use crate::{Backend, Decision, IsosurfaceMethod, IsosurfacePlan, Lighting, Plan, SceneError};
@@ -38,6 +38,8 @@ pub struct Scene {
     pub tables: Option<TableSettings>,
     /// In which order cells are blended; `None` leaves it to [`Scene::plan`].
     pub order: Option<OrderMethod>,
+    /// What is done about cells that hide one another in rings.
+    pub cycles: CycleRemedy,
     /// Who computes.
     pub backend: Backend,
     /// Number of threads; `None` leaves it to the back end.
@@ -78,6 +80,7 @@ impl Scene {
             isosurfaces,
             lighting,
             order,
+            cycles: self.cycles,
             backend: self.backend,
             threads: self.threads,
             termination: Self::TERMINATION,

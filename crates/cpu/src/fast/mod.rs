@@ -36,7 +36,7 @@ use rayon::prelude::*;
 
 use tetrascope_integrate::{Integration, Isosurfaces};
 use tetrascope_mesh::{CellId, ChordLengths, Frame, TetMesh, VertexId, point_gradients, segment_lengths};
-use tetrascope_order::{Cells, OrderMethod, VisibilityOrder};
+use tetrascope_order::{Cells, MeshVisibility, OrderMethod, VisibilityOrder};
 use tetrascope_scene::{Gradients, Plan, Progress, Stage};
 use tetrascope_view::LinearImage;
 
@@ -88,7 +88,8 @@ pub struct CpuRenderer {
     /// Likewise the tables of integrations that have one, and the maps of isosurfaces.
     lookups: Mutex<Vec<Arc<Lookup>>>,
     maps: Mutex<Vec<Arc<Maps>>>,
-    /// Visibility orders with what they learned of the mesh.
+    /// What visibility orders learned of the mesh, and the last of them.
+    visibility: MeshVisibility,
     orders: Mutex<Vec<Arc<Prepared>>>,
     /// Lengths of segments, only if a table asked for them; `None` if no cell has a volume.
     lengths: OnceLock<Option<ChordLengths>>,
@@ -102,7 +103,7 @@ pub struct CpuRenderer {
 #[derive(Debug)]
 struct Prepared {
     method: OrderMethod,
-    order: Box<dyn VisibilityOrder>,
+    order: Arc<dyn VisibilityOrder>,
 }
 
 /// What a frame fills and the next one fills again.
@@ -145,6 +146,7 @@ impl CpuRenderer {
             optics: Mutex::new(Vec::new()),
             lookups: Mutex::new(Vec::new()),
             maps: Mutex::new(Vec::new()),
+            visibility: MeshVisibility::new(),
             orders: Mutex::new(Vec::new()),
             lengths: OnceLock::new(),
             gradients: OnceLock::new(),
@@ -162,6 +164,16 @@ impl CpuRenderer {
     pub fn render(&self, plan: &Plan, progress: &dyn Progress) -> Result<Rendered, RenderError> {
         check_methods(plan)?;
         on_threads(plan.threads, || self.render_here(plan, progress))?
+    }
+
+    /// The mesh as visibility orders see it: in the mesh's own coordinates, each cell's points in ascending order.
+    pub fn cells(&self) -> Cells<'_> {
+        Cells { positions: &self.positions, tetrahedra: &self.tetrahedra }
+    }
+
+    /// What visibility orders know of [`Self::cells`].
+    pub fn visibility(&self) -> &MeshVisibility {
+        &self.visibility
     }
 
     fn render_here(&self, plan: &Plan, progress: &dyn Progress) -> Result<Rendered, RenderError> {
@@ -196,7 +208,7 @@ impl CpuRenderer {
             .collect_into_vec(outlines);
         let seen: Vec<CellId> =
             optics.visible().par_iter().copied().filter(|cell| outlines[cell.index()] != NOWHERE).collect();
-        let cells = Cells { positions: &self.positions, tetrahedra: &self.tetrahedra };
+        let cells = self.cells();
         let order = self.order(plan.order, cells).order.order(cells, view.viewpoint(), &seen);
         watch.lap(Stage::Order);
 
@@ -272,8 +284,9 @@ impl CpuRenderer {
 
     /// A visibility order, made ready for the mesh when first asked for.
     fn order(&self, method: OrderMethod, cells: Cells<'_>) -> Arc<Prepared> {
-        recall(&self.orders, |order| order.method == method)
-            .unwrap_or_else(|| remember(&self.orders, Prepared { method, order: method.prepare(cells) }))
+        recall(&self.orders, |order| order.method == method).unwrap_or_else(|| {
+            remember(&self.orders, Prepared { method, order: self.visibility.prepare(cells, method) })
+        })
     }
 
     /// The isosurfaces that are to be seen, in the renderer's unit.

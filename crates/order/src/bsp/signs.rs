@@ -8,7 +8,7 @@ use tetrascope_view::Viewpoint;
 ///
 /// Exact ([Shewchuk 1997]) while no product of three coordinates leaves 1e-250..1e300.
 #[inline]
-pub(super) fn side_of([a, b, c]: [DVec3; 3], p: DVec3) -> i8 {
+pub(crate) fn side_of([a, b, c]: [DVec3; 3], p: DVec3) -> i8 {
     sign(signed_volume([a, b, c], p))
 }
 

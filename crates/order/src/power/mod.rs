@@ -108,7 +108,7 @@ impl VisibilityOrder for Power {
         sort_by_key(&mut sorted);
         settle::settle(&mut sorted, &unsure, cells, viewpoint, |cell| self.key(cell, viewpoint));
         let front_to_back = sorted.into_iter().map(|(_, cell)| cell).collect();
-        Order { front_to_back, guarantee: Guarantee::Approximate, cycles: Vec::new() }
+        Order::whole(front_to_back, Guarantee::Approximate)
     }
 }
 

@@ -1,0 +1,109 @@
+//! Whether a mesh is convex.
+
+use rayon::prelude::*;
+use tetrascope_mesh::{CellFace, FaceAdjacency, VertexId};
+
+use crate::Cells;
+use crate::bsp::side_of;
+
+/// A boundary face's points, and the corner of its cell that is not one of them.
+fn points_of(cells: Cells<'_>, face: CellFace) -> ([VertexId; 3], VertexId) {
+    let [a, b, c, d] = cells.tetrahedra[face.cell.index()];
+    match face.corner {
+        0 => ([b, c, d], a),
+        1 => ([a, c, d], b),
+        2 => ([a, b, d], c),
+        _ => ([a, b, c], d),
+    }
+}
+
+/// Whether a mesh fills a convex body: then whatever a ray meets it meets without a gap.
+///
+/// It does if its boundary is one closed surface that is nowhere bent inwards. Every edge is tested, without rounding; so a box
+/// whose sides are flat only to rounding is not convex. A mesh that overlaps itself or has faces of three cells is not, nor
+/// is one with cells without volume.
+pub(crate) fn is_convex(cells: Cells<'_>, adjacency: &FaceAdjacency) -> bool {
+    let boundary = adjacency.boundary_faces();
+    if boundary.is_empty() || !adjacency.non_manifold_faces().is_empty() || !adjacency.folded_faces().is_empty() {
+        return false;
+    }
+    // Every edge with its face, so that the two of an edge come side by side.
+    let mut edges: Vec<([u32; 2], u32)> = (0..)
+        .zip(boundary)
+        .flat_map(|(number, &face)| {
+            let [a, b, c] = points_of(cells, face).0.map(|v| v.0);
+            [[a, b], [b, c], [c, a]].map(|[p, q]| ([p.min(q), p.max(q)], number))
+        })
+        .collect();
+    edges.par_sort_unstable();
+    let is_two = |pair: &[([u32; 2], u32)]| pair.len() == 2 && pair[0].0 == pair[1].0;
+    let is_closed =
+        edges.chunks(2).all(is_two) && edges.chunks(2).zip(edges.chunks(2).skip(1)).all(|(a, b)| a[0].0 != b[0].0);
+    if !is_closed {
+        return false;
+    }
+    let position = |v: VertexId| cells.positions[v.index()];
+    let bends_outwards = |pair: &[([u32; 2], u32)]| {
+        let [face, other] = [pair[0].1, pair[1].1].map(|number| points_of(cells, boundary[number as usize]));
+        let apex = other.0.into_iter().find(|v| !pair[0].0.contains(&v.0));
+        let inside = side_of(face.0.map(position), position(face.1));
+        apex.is_some_and(|apex| inside != 0 && side_of(face.0.map(position), position(apex)) * inside >= 0)
+    };
+    edges.par_chunks(2).all(bends_outwards) && is_connected(&edges, boundary.len())
+}
+
+/// Whether the faces hang together by their edges.
+fn is_connected(edges: &[([u32; 2], u32)], faces: usize) -> bool {
+    let mut parent: Vec<u32> = (0..faces as u32).collect();
+    let mut parts = faces;
+    fn root(parent: &mut [u32], mut face: u32) -> u32 {
+        while parent[face as usize] != face {
+            parent[face as usize] = parent[parent[face as usize] as usize];
+            face = parent[face as usize];
+        }
+        face
+    }
+    for pair in edges.chunks(2) {
+        let [a, b] = [pair[0].1, pair[1].1].map(|face| root(&mut parent, face));
+        if a != b {
+            parent[a as usize] = b;
+            parts -= 1;
+        }
+    }
+    parts == 1
+}
+
+#[cfg(test)]
+mod tests {
+    use glam::DVec3;
+
+    use super::*;
+
+    fn convex(points: &[DVec3], tetrahedra: &[[u32; 4]]) -> bool {
+        let tetrahedra: Vec<_> = tetrahedra.iter().map(|t| t.map(VertexId)).collect();
+        is_convex(Cells { positions: points, tetrahedra: &tetrahedra }, &FaceAdjacency::new(&tetrahedra))
+    }
+
+    #[test]
+    fn bodies() {
+        let corner = [DVec3::ZERO, DVec3::X, DVec3::Y, DVec3::Z];
+        assert!(convex(&corner, &[[0, 1, 2, 3]]));
+        let far = [corner.to_vec(), corner.map(|p| p + 5.0).to_vec()].concat();
+        assert!(!convex(&far, &[[0, 1, 2, 3], [4, 5, 6, 7]]), "two parts");
+        let apex = |p: DVec3| [corner.to_vec(), vec![p]].concat();
+        assert!(convex(&apex(DVec3::splat(0.4)), &[[0, 1, 2, 3], [1, 2, 3, 4]]));
+        assert!(!convex(&apex(DVec3::splat(4.0)), &[[0, 1, 2, 3], [1, 2, 3, 4]]), "a tip beyond the faces' planes");
+        assert!(!convex(&apex(-DVec3::splat(1.0)), &[[0, 1, 2, 3], [0, 1, 2, 4]]), "bent inwards");
+        assert!(!convex(&[], &[]));
+    }
+
+    #[test]
+    fn flat_sides_are_convex() {
+        let cube: Vec<DVec3> =
+            (0..8).map(|i| DVec3::new(f64::from(i & 1), f64::from(i >> 1 & 1), f64::from(i >> 2))).collect();
+        let five = [[0, 3, 5, 6], [1, 0, 3, 5], [2, 0, 3, 6], [4, 0, 5, 6], [7, 3, 5, 6]];
+        assert!(convex(&cube, &five));
+        assert!(!convex(&cube, &five[..4]), "a corner is missing");
+        assert!(!convex(&cube, &five[1..]), "the inside is missing: the parts touch in edges");
+    }
+}

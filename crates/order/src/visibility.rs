@@ -1,0 +1,129 @@
+//! What visibility orders know of one mesh.
+
+use std::sync::{Arc, OnceLock};
+
+use tetrascope_mesh::FaceAdjacency;
+
+use crate::convex::is_convex;
+use crate::sides::FaceSides;
+use crate::{
+    BspTree, BspXmpvo, Bucket, Budget, Cells, Centroid, Heights, Mpvo, OrderMethod, Power, PowerCertificate, Unordered,
+    VisibilityOrder,
+};
+
+/// What visibility orders know of one mesh: each part is learned once, when first asked for, and shared by all orders.
+///
+/// Every call takes the cells of the same mesh.
+#[derive(Debug, Default)]
+pub struct MeshVisibility {
+    adjacency: OnceLock<Arc<FaceAdjacency>>,
+    sides: OnceLock<Arc<FaceSides>>,
+    tree: OnceLock<Arc<BspTree>>,
+    is_convex: OnceLock<bool>,
+    /// Whether the heights `|p|²` or those given are proven.
+    quick: OnceLock<Arc<Power>>,
+    power: OnceLock<Arc<Power>>,
+    heights: OnceLock<Arc<Vec<f64>>>,
+}
+
+/// The cheapest order that is right for a mesh, and why.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct OrderChoice {
+    /// The order.
+    pub method: OrderMethod,
+    /// Why, in a few words.
+    pub reason: &'static str,
+}
+
+impl MeshVisibility {
+    /// Knows nothing yet.
+    pub fn new() -> Self {
+        Self::default()
+    }
+
+    /// Knows heights that were found before, one a point; they are proven anew before anything rests on them.
+    pub fn with_heights(heights: Vec<f64>) -> Self {
+        Self { heights: OnceLock::from(Arc::new(heights)), ..Self::default() }
+    }
+
+    /// Which cells share faces.
+    pub fn adjacency(&self, cells: Cells<'_>) -> &Arc<FaceAdjacency> {
+        self.adjacency.get_or_init(|| Arc::new(FaceAdjacency::new(cells.tetrahedra)))
+    }
+
+    pub(crate) fn sides(&self, cells: Cells<'_>) -> &Arc<FaceSides> {
+        self.sides.get_or_init(|| Arc::new(FaceSides::new(cells, self.adjacency(cells))))
+    }
+
+    /// The tree of the boundary faces.
+    pub fn tree(&self, cells: Cells<'_>) -> &Arc<BspTree> {
+        self.tree.get_or_init(|| Arc::new(BspTree::new(cells, self.adjacency(cells))))
+    }
+
+    /// Whether the mesh is convex: one piece, and no ray leaves it and enters it again.
+    pub fn is_convex(&self, cells: Cells<'_>) -> bool {
+        *self.is_convex.get_or_init(|| is_convex(cells, self.adjacency(cells)))
+    }
+
+    /// One key a cell, from the heights given or else from those that [`Heights::solve`] finds.
+    pub fn power(&self, cells: Cells<'_>) -> &Arc<Power> {
+        self.power.get_or_init(|| {
+            let quick = self.quick_power(cells);
+            if quick.certificate().is_exact() {
+                return Arc::clone(quick);
+            }
+            let adjacency = self.adjacency(cells);
+            let heights = Arc::new(Heights::solve(cells, adjacency, Budget::default()).values);
+            Arc::new(Power::with_heights(cells, adjacency, &heights))
+        })
+    }
+
+    /// What is proven of the heights given, or of `|p|²` without any: whether the mesh is Delaunay.
+    pub fn quick_certificate(&self, cells: Cells<'_>) -> PowerCertificate {
+        self.quick_power(cells).certificate()
+    }
+
+    fn quick_power(&self, cells: Cells<'_>) -> &Arc<Power> {
+        self.quick.get_or_init(|| {
+            let adjacency = self.adjacency(cells);
+            Arc::new(match self.heights.get() {
+                Some(heights) => Power::with_heights(cells, adjacency, heights),
+                None => Power::with_adjacency(cells, adjacency, Budget { visits_per_face: 0 }),
+            })
+        })
+    }
+
+    /// The cheapest order that is right for the mesh from everywhere, but for cells in rings.
+    ///
+    /// No heights are looked for: that takes longer than many frames. Those given count.
+    pub fn choose(&self, cells: Cells<'_>) -> OrderChoice {
+        if !self.is_convex(cells) {
+            let reason = "the mesh is not convex: neighbors by their faces, and across gaps by the boundary's";
+            return OrderChoice { method: OrderMethod::BspXmpvo, reason };
+        }
+        if self.quick_certificate(cells).is_exact() {
+            return OrderChoice { method: OrderMethod::Power, reason: "one key a cell is proven to be exact" };
+        }
+        OrderChoice { method: OrderMethod::Mpvo, reason: "the mesh is convex: neighbors by the planes between them" }
+    }
+
+    /// A method, ready for the mesh: what it has to know of it is learned here, once.
+    ///
+    /// [`OrderMethod::pixel_sort`] is left to the back end.
+    pub fn prepare(&self, cells: Cells<'_>, method: OrderMethod) -> Arc<dyn VisibilityOrder> {
+        match method {
+            OrderMethod::None | OrderMethod::PerPixel => Arc::new(Unordered),
+            OrderMethod::Bucket { slabs } => Arc::new(Bucket { slabs }),
+            OrderMethod::Centroid | OrderMethod::KBuffer { .. } => Arc::new(Centroid),
+            OrderMethod::Power => Arc::clone(self.power(cells)) as Arc<dyn VisibilityOrder>,
+            OrderMethod::Mpvo => {
+                Arc::new(Mpvo::with_parts(Arc::clone(self.adjacency(cells)), Arc::clone(self.sides(cells))))
+            }
+            OrderMethod::BspXmpvo => {
+                let mpvo = Mpvo::with_parts(Arc::clone(self.adjacency(cells)), Arc::clone(self.sides(cells)));
+                let tree = (!self.is_convex(cells)).then(|| Arc::clone(self.tree(cells)));
+                Arc::new(BspXmpvo::with_parts(mpvo, tree))
+            }
+        }
+    }
+}
