@@ -5,9 +5,16 @@ use std::sync::Arc;
 use tetrascope_mesh::CellId;
 use tetrascope_view::Viewpoint;
 
-use crate::{BspTree, Cells, Mpvo, Order, VisibilityOrder};
+use crate::gaps::Gaps;
+use crate::{BspTree, Cells, Guarantee, Mpvo, Order, VisibilityOrder};
 
-/// [`Mpvo`] with the relations that it misses where a mesh is not convex.
+/// [`Mpvo`] with the relations that it misses where a mesh is not convex: those that [`BspTree::arrows`] finds across gaps.
+///
+/// Right for every two cells that a ray meets, also where it leaves the mesh in between; the guarantee says if relations are missing, since
+/// there were too many to compare. Where cells hide one another in a ring, by faces or across gaps, no order is right: the ring is
+/// reported in [`Order::cycles`].
+///
+/// No centroid is looked at but for the cells of a ring: which of two cells that no ray meets comes first follows from their numbers.
 ///
 /// Source: [Comba 1999].
 #[derive(Clone, Debug)]
@@ -24,7 +31,25 @@ impl BspXmpvo {
 }
 
 impl VisibilityOrder for BspXmpvo {
+    /// # Panics
+    ///
+    /// If `cells` is not the mesh that it was made for, in number.
     fn order(&self, cells: Cells<'_>, viewpoint: Viewpoint, drawn: &[CellId]) -> Order {
-        self.mpvo.order(cells, viewpoint, drawn)
+        let across = || {
+            let Some(tree) = &self.tree else {
+                return (Gaps::default(), true);
+            };
+            let mut arrows = Vec::new();
+            let report = tree.arrows(viewpoint, &mut |front, back| {
+                // A cell that meets itself, by faces that rounding folded, is no ring.
+                if front != back {
+                    arrows.push((front, back));
+                }
+            });
+            (Gaps::new(cells.tetrahedra.len(), &arrows), report.is_complete)
+        };
+        let (bytes, (gaps, is_complete)) = rayon::join(|| self.mpvo.waiting(cells, viewpoint), across);
+        let guarantee = if is_complete { Guarantee::Exact } else { Guarantee::Faces };
+        self.mpvo.swept(cells, viewpoint, drawn, bytes, &gaps, guarantee)
     }
 }

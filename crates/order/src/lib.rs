@@ -34,12 +34,15 @@ mod bucket;
 mod centroid;
 mod convex;
 mod cycles;
+mod gaps;
 mod method;
 mod mpvo;
+mod planes;
 mod power;
 mod radix;
 mod remedy;
 mod sides;
+mod sweep;
 mod unordered;
 mod visibility;
 

@@ -7,84 +7,168 @@ use tetrascope_mesh::{CellId, FaceAdjacency};
 use tetrascope_view::Viewpoint;
 
 use crate::centroid::nearest_first;
-use crate::cycles::cycles;
+use crate::convex::is_convex;
+use crate::cycles::{Arrows, groups};
+use crate::gaps::Gaps;
 use crate::sides::{FaceSides, neighbor};
+use crate::sweep::{is_left, sweep, waiting};
 use crate::{Cells, Guarantee, Order, VisibilityOrder};
 
 /// Of two cells that share a face, the one on the eye's side of its plane comes first.
 ///
 /// Right for every two cells that a ray meets one right after the other through a face, and so for all cells where the mesh is convex.
-/// Cells with a gap between them have no face in common; among what the faces leave open the nearer centroid comes first.
-/// That is a guess, and where a mesh is not convex it may be wrong.
+/// Cells with a gap between them have no face in common; of two cells of the boundary that faces leave open the one with the nearer
+/// centroid comes first. That is a guess, and where a mesh is not convex it may be wrong.
 ///
-/// Planes are evaluated once for both sides, exactly: a face seen edge-on orders nothing. Where cells hide one another in a ring, no
-/// order is right: the ring is broken at one of its faces and reported in [`Order::cycles`].
+/// Planes are evaluated exactly, and with one result for both cells: a face seen edge-on orders nothing. Where cells hide one
+/// another in a ring, no order is right: the ring is reported in [`Order::cycles`], its cells stand together by the distance of
+/// their centroids, and all others come right.
 ///
-/// Time linear in the number of cells of the mesh but for the sort of the centroids; all cells take part, also those that
-/// are not drawn, since two that are may be ordered by what lies between them. Keeps 17 bytes a tetrahedron.
+/// Time linear in the number of cells of the mesh but for the sort of the boundary, where it is not convex; all cells take part, also
+/// those that are not drawn, since two that are may be ordered by what lies between them. Keeps 49 bytes a tetrahedron: its neighbors
+/// (16), the planes of its faces in 16 bits (32), their sides (1).
 ///
-/// Source: [Williams 1992b], with a depth-first search over cells sorted by centroid in the place of his search from the
-/// back; his heuristic for meshes that are not convex sorts the boundary alone.
+/// Source: [Williams 1992b]. On a convex mesh any topological order is right and the one of [Kahn 1962] is the fastest; elsewhere
+/// a depth-first search from the boundary, sorted by centroid, is his heuristic for meshes that are not convex, from the front.
 #[derive(Clone, Debug)]
 pub struct Mpvo {
     adjacency: Arc<FaceAdjacency>,
     sides: Arc<FaceSides>,
+    /// The cells of the boundary; `None` where the mesh is convex.
+    boundary: Option<Arc<[CellId]>>,
 }
 
 /// How far the search has come with a cell, in the bits above those for its corners: one byte a cell is all that it touches.
 const OPEN: u8 = 0x10;
 const PLACED: u8 = 0x20;
-const DRAWN: u8 = 0x40;
 
 impl Mpvo {
-    /// Learns which faces a mesh's cells share, and on which side of them they lie.
+    /// Learns which faces a mesh's cells share, on which side of them they lie, and whether the mesh is convex.
     pub fn new(cells: Cells<'_>) -> Self {
         let adjacency = FaceAdjacency::new(cells.tetrahedra);
         let sides = FaceSides::new(cells, &adjacency);
-        Self::with_parts(Arc::new(adjacency), Arc::new(sides))
+        let is_convex = is_convex(cells, &adjacency);
+        Self::with_parts(Arc::new(adjacency), Arc::new(sides), is_convex)
     }
 
-    pub(crate) fn with_parts(adjacency: Arc<FaceAdjacency>, sides: Arc<FaceSides>) -> Self {
-        Self { adjacency, sides }
+    pub(crate) fn with_parts(adjacency: Arc<FaceAdjacency>, sides: Arc<FaceSides>, is_convex: bool) -> Self {
+        let table = adjacency.table();
+        let is_outer = |cell: &u32| table[*cell as usize].contains(&FaceAdjacency::NONE);
+        let boundary =
+            (!is_convex).then(|| (0..table.len() as u32).into_par_iter().filter(is_outer).map(CellId).collect());
+        Self { adjacency, sides, boundary }
+    }
+
+    /// What every cell waits for, as [`sweep`] takes it.
+    pub(crate) fn waiting(&self, cells: Cells<'_>, viewpoint: Viewpoint) -> Vec<u8> {
+        assert_eq!(cells.tetrahedra.len(), self.sides.len(), "an order is made for one mesh");
+        let mut bytes = vec![0; self.sides.len() + 1];
+        self.sides.relations(cells, viewpoint, &mut bytes[..self.sides.len()], waiting);
+        bytes
+    }
+
+    /// The order that follows from faces and gaps alone.
+    ///
+    /// - `bytes`: of [`Self::waiting`]
+    /// - `gaps`: for every cell those that lie behind it without a face in common
+    pub(crate) fn swept(
+        &self,
+        cells: Cells<'_>,
+        viewpoint: Viewpoint,
+        drawn: &[CellId],
+        mut bytes: Vec<u8>,
+        gaps: &Gaps,
+        guarantee: Guarantee,
+    ) -> Order {
+        let count = self.sides.len();
+        let placed = sweep(&mut bytes, self.adjacency.table(), gaps);
+        if placed.len() == count {
+            return Order::whole(only_drawn(placed, count, drawn), guarantee);
+        }
+        let left: Vec<CellId> =
+            (0..).map(CellId).zip(&bytes[..count]).filter(|(_, b)| is_left(**b)).map(|(c, _)| c).collect();
+        self.with_rings(cells, viewpoint, drawn, (placed, left), &gaps.reversed(count), guarantee)
+    }
+
+    /// The order where cells hide one another in rings.
+    ///
+    /// - `parts`: cells that are in order and have nothing else in front of them, and all others
+    /// - `gaps`: for every cell those that lie in front of it without a face in common
+    fn with_rings(
+        &self,
+        cells: Cells<'_>,
+        viewpoint: Viewpoint,
+        drawn: &[CellId],
+        (placed, left): (Vec<CellId>, Vec<CellId>),
+        gaps: &Gaps,
+        guarantee: Guarantee,
+    ) -> Order {
+        let (nearer, roots) =
+            rayon::join(|| self.sides.nearer_neighbors(cells, viewpoint), || nearest_first(cells, viewpoint, &left));
+        let arrows = Arrows { nearer: &nearer, table: self.adjacency.table(), gaps };
+        let is_drawn = Marks::new(self.sides.len(), drawn);
+        let mut front_to_back = only_drawn(placed.clone(), self.sides.len(), drawn);
+        let mut cycles = Vec::new();
+        groups(arrows, &placed, roots, |group| {
+            if let [cell] = *group {
+                front_to_back.extend(is_drawn.has(CellId(cell)).then_some(CellId(cell)));
+                return;
+            }
+            let mut ring: Vec<CellId> = group.iter().copied().map(CellId).collect();
+            ring.sort_unstable();
+            let members: Vec<CellId> = ring.iter().copied().filter(|&cell| is_drawn.has(cell)).collect();
+            front_to_back.extend(nearest_first(cells, viewpoint, &members));
+            cycles.push(ring);
+        });
+        cycles.sort_unstable();
+        Order { cycles, ..Order::whole(front_to_back, guarantee) }
+    }
+
+    /// The order where gaps are guessed across by the centroids of the boundary's cells.
+    fn guessed(&self, cells: Cells<'_>, viewpoint: Viewpoint, drawn: &[CellId], boundary: &[CellId]) -> Order {
+        let count = self.sides.len();
+        let (mut state, sorted) =
+            rayon::join(|| self.sides.nearer_neighbors(cells, viewpoint), || nearest_first(cells, viewpoint, boundary));
+        let mut placed = Vec::with_capacity(count);
+        let is_cyclic = self.search(&mut state, &sorted, &mut placed);
+        if !is_cyclic {
+            return Order::whole(only_drawn(placed, count, drawn), Guarantee::Faces);
+        }
+        let all = (0..count as u32).map(CellId).collect();
+        self.with_rings(cells, viewpoint, drawn, (Vec::new(), all), &Gaps::default(), Guarantee::Faces)
     }
 
     /// Places cells after all that lie in front of them; gives whether a ring had to be broken.
     ///
-    /// - `state`: for every cell the corners whose opposite neighbor lies in front of it, as bits, and [`DRAWN`]
-    fn place(&self, state: &mut [u8], sorted: &[CellId], placed: &mut Vec<CellId>) -> bool {
+    /// - `state`: for every cell the corners whose opposite neighbor lies in front of it, as bits
+    fn search(&self, state: &mut [u8], sorted: &[CellId], placed: &mut Vec<CellId>) -> bool {
         let table = self.adjacency.table();
         let mut open: Vec<(CellId, u8)> = Vec::new();
         let mut is_cyclic = false;
-        let mut begin = |cell: CellId, state: &mut [u8], open: &mut Vec<(CellId, u8)>| {
-            let bits = &mut state[cell.index()];
-            match *bits & (OPEN | PLACED) {
-                0 => {
-                    open.push((cell, *bits & 0x0f));
-                    *bits |= OPEN;
-                }
-                OPEN => is_cyclic = true,
-                _ => {}
-            }
-        };
-        for &root in sorted {
+        // Whatever has something behind it is reached from the boundary; rings and flat cells may not be.
+        for root in sorted.iter().copied().chain((0..table.len() as u32).map(CellId)) {
             if state[root.index()] & PLACED != 0 {
                 continue;
             }
-            begin(root, state, &mut open);
-            while let Some((cell, in_front)) = open.last_mut() {
-                if *in_front == 0 {
-                    let bits = &mut state[cell.index()];
-                    *bits ^= OPEN | PLACED;
-                    if *bits & DRAWN != 0 {
-                        placed.push(*cell);
-                    }
-                    open.pop();
+            let (mut cell, mut in_front) = (root, state[root.index()]);
+            state[cell.index()] |= OPEN;
+            loop {
+                if in_front == 0 {
+                    state[cell.index()] ^= OPEN | PLACED;
+                    placed.push(cell);
+                    let Some(before) = open.pop() else { break };
+                    (cell, in_front) = before;
                     continue;
                 }
-                let corner = in_front.trailing_zeros();
-                *in_front &= *in_front - 1;
-                let next = neighbor(table, *cell, corner);
-                begin(next, state, &mut open);
+                let next = neighbor(table, cell, in_front.trailing_zeros());
+                in_front &= in_front - 1;
+                let bits = state[next.index()];
+                if bits & (OPEN | PLACED) == 0 {
+                    state[next.index()] |= OPEN;
+                    open.push((cell, in_front));
+                    (cell, in_front) = (next, bits);
+                }
+                is_cyclic |= bits & OPEN != 0;
             }
         }
         is_cyclic
@@ -97,21 +181,40 @@ impl VisibilityOrder for Mpvo {
     /// If `cells` is not the mesh that it was made for, in number.
     fn order(&self, cells: Cells<'_>, viewpoint: Viewpoint, drawn: &[CellId]) -> Order {
         assert_eq!(cells.tetrahedra.len(), self.sides.len(), "an order is made for one mesh");
-        let (mut state, sorted) =
-            rayon::join(|| self.sides.nearer_neighbors(cells, viewpoint), || nearest_first(cells, viewpoint, drawn));
-        for cell in drawn {
-            state[cell.index()] |= DRAWN;
+        match &self.boundary {
+            Some(boundary) => self.guessed(cells, viewpoint, drawn, boundary),
+            None => {
+                let bytes = self.waiting(cells, viewpoint);
+                self.swept(cells, viewpoint, drawn, bytes, &Gaps::default(), Guarantee::Exact)
+            }
         }
-        let mut front_to_back = Vec::with_capacity(drawn.len());
-        let is_cyclic = self.place(&mut state, &sorted, &mut front_to_back);
-        let cycles = if is_cyclic {
-            state.par_iter_mut().for_each(|bits| *bits &= 0x0f);
-            cycles(&state, self.adjacency.table())
-        } else {
-            Vec::new()
-        };
-        Order { cycles, ..Order::whole(front_to_back, Guarantee::Faces) }
     }
+}
+
+/// A bit for every cell.
+struct Marks(Vec<u64>);
+
+impl Marks {
+    fn new(count: usize, cells: &[CellId]) -> Self {
+        let mut bits = vec![0; count.div_ceil(64)];
+        for cell in cells {
+            bits[cell.index() / 64] |= 1 << (cell.index() % 64);
+        }
+        Self(bits)
+    }
+
+    fn has(&self, cell: CellId) -> bool {
+        self.0[cell.index() / 64] >> (cell.index() % 64) & 1 == 1
+    }
+}
+
+/// Leaves those that are drawn; `drawn` names each of the `count` cells of the mesh at most once.
+fn only_drawn(mut placed: Vec<CellId>, count: usize, drawn: &[CellId]) -> Vec<CellId> {
+    if drawn.len() < count {
+        let is_drawn = Marks::new(count, drawn);
+        placed.retain(|&cell| is_drawn.has(cell));
+    }
+    placed
 }
 
 /// Pairs of drawn cells that share a face and come in the wrong order: what a method's guarantee is worth here.

@@ -5,7 +5,8 @@ use proptest::prelude::*;
 use tetrascope_mesh::{CellId, Dataset, TetMesh, VertexId, decompose, rings_sample};
 use tetrascope_view::Viewpoint;
 
-use crate::cycles::cycles;
+use crate::cycles::{Arrows, groups};
+use crate::gaps::Gaps;
 use crate::*;
 
 fn mesh_of(dataset: &Dataset) -> TetMesh {
@@ -125,10 +126,23 @@ fn rings_are_found_each_once() {
         [3, NONE, NONE, NONE],
         [0, NONE, NONE, NONE],
     ];
-    let nearer = [1, 1, 3, 1, 1, 1];
-    let expected = [[0, 1, 2].map(CellId).to_vec(), [3, 4].map(CellId).to_vec()];
-    assert_eq!(cycles(&nearer, &table), expected);
-    assert_eq!(cycles(&[0; 6], &table), Vec::<Vec<CellId>>::new());
+    let arrows = Arrows { nearer: &[1, 1, 3, 1, 1, 1], table: &table, gaps: &Gaps::default() };
+    let groups_of = |arrows: Arrows<'_>, placed: &[CellId], roots: &[u32]| {
+        let mut found = Vec::new();
+        groups(arrows, placed, roots.iter().copied().map(CellId), |group| {
+            let mut group = group.to_vec();
+            group.sort_unstable();
+            found.push(group);
+        });
+        found
+    };
+    assert_eq!(groups_of(arrows, &[], &[5, 0, 1, 2, 3, 4]), [vec![3, 4], vec![0, 1, 2], vec![5]]);
+    assert_eq!(groups_of(arrows, &[3, 4].map(CellId), &[1]), [[0, 1, 2]], "what was placed is not given again");
+    // Across a gap 5 lies in front of 3: all but 5 behind it, and with 3 in front of 5 too one ring of five or six.
+    let gaps = Gaps::new(6, &[(CellId(3), CellId(5))]);
+    assert_eq!(groups_of(Arrows { gaps: &gaps, ..arrows }, &[], &[0]), [[0, 1, 2, 3, 4, 5]]);
+    let none = Arrows { nearer: &[0; 6], ..arrows };
+    assert_eq!(groups_of(none, &[], &[2, 0, 1, 5]), [[2], [0], [1], [5]]);
 }
 
 /// A column of twisted sectors, each leaning over the next one like the blades of a fan: seen along its axis, two of the three cells of

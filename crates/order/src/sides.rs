@@ -7,14 +7,28 @@ use tetrascope_mesh::{CellId, FaceAdjacency, VertexId};
 use tetrascope_view::Viewpoint;
 
 use crate::Cells;
+use crate::planes::{Glance, Planes};
 
 /// For every cell, which of its faces it shares with a cell on the other side, and on which side of them it lies.
 ///
-/// Bit `i` is set in the low half if the cell lies on the positive side of the face opposite corner `i`, and in the high half if the
-/// face may carry an arrow. Faces are taken with their points in ascending order, so that both cells of a face ask about the
-/// same plane and hear the same answer.
+/// Faces are taken with their points in ascending order, so that both cells of a face ask about the same plane and hear the same
+/// answer.
 #[derive(Clone, Debug)]
-pub(crate) struct FaceSides(Vec<u8>);
+pub(crate) struct FaceSides {
+    /// Bit `i` is set in the low half if the cell lies on the positive side of the face opposite corner `i`, and in the high half if
+    /// the face may carry an arrow.
+    sides: Vec<u8>,
+    planes: Planes,
+}
+
+/// A cell's faces with an arrow, as bits by corner.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Relation {
+    /// The neighbor lies in front.
+    pub front: u8,
+    /// The neighbor lies behind.
+    pub behind: u8,
+}
 
 impl FaceSides {
     /// Exact, whatever the cells' orientation.
@@ -28,7 +42,7 @@ impl FaceSides {
             let apex = cells.positions[tetrahedron[corner].index()];
             orientation(face(cells, tetrahedron, corner), apex)
         };
-        let sides = (0..cells.tetrahedra.len())
+        let sides: Vec<u8> = (0..cells.tetrahedra.len())
             .into_par_iter()
             .map(|cell| {
                 let mut bits = 0;
@@ -51,32 +65,69 @@ impl FaceSides {
                 bits
             })
             .collect();
-        Self(sides)
+        // The positive side is the one that the normal leads away from.
+        let outward = |cell: usize, corner: usize| {
+            let bits = sides[cell] >> corner;
+            (bits & 0x10 != 0).then(|| (face(cells, cells.tetrahedra[cell], corner), bits & 1 == 1))
+        };
+        let planes = Planes::new(cells, outward);
+        Self { sides, planes }
+    }
+
+    /// For every cell a byte of its relations to its neighbors.
+    ///
+    /// Exact: what the planes in 16 bits leave open is asked of the points.
+    pub(crate) fn relations(
+        &self,
+        cells: Cells<'_>,
+        viewpoint: Viewpoint,
+        bytes: &mut [u8],
+        byte: impl Fn(Relation) -> u8 + Sync,
+    ) {
+        self.planes.glance(viewpoint, bytes, |first, glances, bytes| {
+            let mut open = 0;
+            for ((glance, &bits), result) in glances.iter().zip(&self.sides[first..]).zip(&mut *bytes) {
+                open |= !(glance.front | glance.behind) & bits >> 4;
+                *result = byte(Relation { front: glance.front, behind: glance.behind });
+            }
+            if open != 0 {
+                for ((lane, &glance), result) in glances.iter().enumerate().zip(bytes) {
+                    if !(glance.front | glance.behind) & self.sides[first + lane] >> 4 != 0 {
+                        *result = byte(self.settle(cells, viewpoint, first + lane, glance));
+                    }
+                }
+            }
+        });
+    }
+
+    /// A cell's relations where a glance did not tell all.
+    #[cold]
+    fn settle(&self, cells: Cells<'_>, viewpoint: Viewpoint, cell: usize, glance: Glance) -> Relation {
+        let bits = self.sides[cell];
+        let mut relation = Relation { front: glance.front, behind: glance.behind };
+        for corner in 0..4 {
+            if !(glance.front | glance.behind) & bits >> 4 & 1 << corner == 0 {
+                continue;
+            }
+            // The cell on the eye's side of the face is the nearer one; seen edge-on, neither.
+            match eye_side(face(cells, cells.tetrahedra[cell], corner), viewpoint) {
+                Some(eye_is_positive) if eye_is_positive != (bits >> corner & 1 == 1) => relation.front |= 1 << corner,
+                Some(_) => relation.behind |= 1 << corner,
+                None => {}
+            }
+        }
+        relation
     }
 
     /// For every cell the corners whose opposite neighbor lies in front of it, as bits.
     pub(crate) fn nearer_neighbors(&self, cells: Cells<'_>, viewpoint: Viewpoint) -> Vec<u8> {
-        self.0
-            .par_iter()
-            .zip(cells.tetrahedra)
-            .map(|(&bits, &tetrahedron)| {
-                let mut nearer = 0;
-                for corner in 0..4 {
-                    if bits & 0x10 << corner == 0 {
-                        continue;
-                    }
-                    // The cell on the eye's side of the face is the nearer one; seen edge-on, neither.
-                    if let Some(eye_is_positive) = eye_side(face(cells, tetrahedron, corner), viewpoint) {
-                        nearer |= u8::from(eye_is_positive != (bits >> corner & 1 == 1)) << corner;
-                    }
-                }
-                nearer
-            })
-            .collect()
+        let mut nearer = vec![0; self.len()];
+        self.relations(cells, viewpoint, &mut nearer, |relation| relation.front);
+        nearer
     }
 
     pub(crate) fn len(&self) -> usize {
-        self.0.len()
+        self.sides.len()
     }
 }
 

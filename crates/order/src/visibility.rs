@@ -107,6 +107,10 @@ impl MeshVisibility {
         OrderChoice { method: OrderMethod::Mpvo, reason: "the mesh is convex: neighbors by the planes between them" }
     }
 
+    fn mpvo(&self, cells: Cells<'_>) -> Mpvo {
+        Mpvo::with_parts(Arc::clone(self.adjacency(cells)), Arc::clone(self.sides(cells)), self.is_convex(cells))
+    }
+
     /// A method, ready for the mesh: what it has to know of it is learned here, once.
     ///
     /// [`OrderMethod::pixel_sort`] is left to the back end.
@@ -116,13 +120,10 @@ impl MeshVisibility {
             OrderMethod::Bucket { slabs } => Arc::new(Bucket { slabs }),
             OrderMethod::Centroid | OrderMethod::KBuffer { .. } => Arc::new(Centroid),
             OrderMethod::Power => Arc::clone(self.power(cells)) as Arc<dyn VisibilityOrder>,
-            OrderMethod::Mpvo => {
-                Arc::new(Mpvo::with_parts(Arc::clone(self.adjacency(cells)), Arc::clone(self.sides(cells))))
-            }
+            OrderMethod::Mpvo => Arc::new(self.mpvo(cells)),
             OrderMethod::BspXmpvo => {
-                let mpvo = Mpvo::with_parts(Arc::clone(self.adjacency(cells)), Arc::clone(self.sides(cells)));
                 let tree = (!self.is_convex(cells)).then(|| Arc::clone(self.tree(cells)));
-                Arc::new(BspXmpvo::with_parts(mpvo, tree))
+                Arc::new(BspXmpvo::with_parts(self.mpvo(cells), tree))
             }
         }
     }
