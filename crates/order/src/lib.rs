@@ -154,6 +154,10 @@ pub trait VisibilityOrder: std::fmt::Debug + Send + Sync {
 }
 
 #[cfg(test)]
+mod cycles_tests;
+#[cfg(test)]
 mod mpvo_tests;
+#[cfg(test)]
+mod sides_tests;
 #[cfg(test)]
 mod tests;
