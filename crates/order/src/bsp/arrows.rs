@@ -4,6 +4,7 @@ use rayon::prelude::*;
 use tetrascope_mesh::CellId;
 use tetrascope_view::Viewpoint;
 
+use super::flat::{Flat, overlap_surely};
 use super::overlap::{Seen, is_before, overlap};
 use super::signs::eye_side;
 use super::split::Plane;
@@ -30,6 +31,9 @@ pub struct ArrowReport {
 const CANDIDATES_PER_FACE: usize = 2000;
 const CANDIDATES: usize = 1 << 20;
 
+/// Faces that one task puts on sheets.
+const FACES_PER_TASK: usize = 1 << 11;
+
 /// The ranks of a face's fragments, in the order of the tree.
 #[derive(Clone, Copy)]
 struct Ranks {
@@ -43,6 +47,17 @@ struct Sighting {
     face: u32,
     ranks: Ranks,
     rectangle: Rectangle,
+    flat: Flat,
+}
+
+/// What all comparisons of one view need.
+#[derive(Clone, Copy)]
+struct Look<'a> {
+    viewpoint: Viewpoint,
+    /// For every face the side of it that the eye is on.
+    eye_sides: &'a [i8],
+    /// Of a coordinate on a sheet.
+    rounding: f64,
 }
 
 impl BspTree {
@@ -83,18 +98,20 @@ impl BspTree {
         // Far entries first: in a tile everything after the first that is in front of an exit is in front of it too.
         entries.sort_by_key(|&face| std::cmp::Reverse(ranks[face as usize].last));
         let sheets = Sheets::new(viewpoint, self.largest);
-        let exits = self.sightings(&sheets, &ranks, &exits);
-        let entries = self.sightings(&sheets, &ranks, &entries);
+        let exits = self.sightings(&sheets, &ranks, &eye_sides, &exits);
+        let entries = self.sightings(&sheets, &ranks, &eye_sides, &entries);
+        let view = Look { viewpoint, eye_sides: &eye_sides, rounding: sheets.rounding() };
 
         let mut arrows: Vec<(CellId, CellId)> = Vec::new();
+        let mut sheets_used = 0;
         let mut offered = 0;
         let most = CANDIDATES + CANDIDATES_PER_FACE * self.faces.len();
         for (exits, entries) in exits.iter().zip(&entries) {
             if exits.is_empty() || entries.is_empty() {
                 continue;
             }
-            let rectangles: Vec<Rectangle> = entries.iter().map(|entry| entry.rectangle).collect();
-            let tiles = Tiles::new(&rectangles);
+            let ranked: Vec<_> = entries.iter().map(|entry| (entry.rectangle, entry.ranks.last)).collect();
+            let tiles = Tiles::new(&ranked);
             let counts: Vec<usize> = exits.par_iter().map(|exit| tiles.candidates(&exit.rectangle)).collect();
             let affordable = counts
                 .iter()
@@ -109,11 +126,10 @@ impl BspTree {
                 .fold(
                     || (0, Vec::new()),
                     |(mut compared, mut found), exit| {
-                        let is_behind = |member: u32| entries[member as usize].ranks.last >= exit.ranks.first;
-                        tiles.meeting(&rectangles, &exit.rectangle, is_behind, |member| {
+                        tiles.meeting(&exit.rectangle, exit.ranks.first, |member| {
                             let entry = &entries[member as usize];
                             compared += 1;
-                            if self.is_arrow(viewpoint, &eye_sides, exit, entry) {
+                            if self.is_arrow(&view, exit, entry) {
                                 let cell = |face: u32| self.faces[face as usize].cell;
                                 found.push((cell(exit.face), cell(entry.face)));
                             }
@@ -129,9 +145,19 @@ impl BspTree {
                     },
                 );
             report.compared += compared;
-            arrows.extend(found);
+            sheets_used += 1;
+            if arrows.is_empty() {
+                arrows = found;
+            } else {
+                arrows.extend(found);
+            }
         }
-        arrows.par_sort_unstable();
+        if sheets_used > 1 {
+            arrows.par_sort_unstable();
+        } else {
+            // Faces come by their cells, so that only what begins at one cell is out of order.
+            arrows.par_chunk_by_mut(|a, b| a.0 == b.0).for_each(<[_]>::sort_unstable);
+        }
         arrows.dedup();
         report.arrows = arrows.len();
         arrows.into_iter().for_each(|(front, back)| sink(front, back));
@@ -139,13 +165,21 @@ impl BspTree {
     }
 
     /// Whether a ray leaves through the exit and enters through the entry later.
-    fn is_arrow(&self, viewpoint: Viewpoint, eye_sides: &[i8], exit: &Sighting, entry: &Sighting) -> bool {
-        let seen = |face: u32| Seen { points: self.faces[face as usize].points, eye_side: eye_sides[face as usize] };
-        let (front, back) = (seen(exit.face), seen(entry.face));
+    fn is_arrow(&self, view: &Look<'_>, exit: &Sighting, entry: &Sighting) -> bool {
         let is_narrow = exit.rectangle.is_whole && entry.rectangle.is_whole;
+        let surely = is_narrow.then(|| overlap_surely(&exit.flat, &entry.flat, view.rounding)).flatten();
+        if surely == Some(false) {
+            return false;
+        }
+        let seen = |face: u32| Seen {
+            points: self.faces[face as usize].points,
+            eye_side: view.eye_sides[face as usize],
+        };
+        let (front, back) = (seen(exit.face), seen(entry.face));
         // Faces that were never split were put on the sides of planes without rounding: their ranks decide.
         let is_ranked = self.is_whole[exit.face as usize] && self.is_whole[entry.face as usize];
-        overlap(viewpoint, &front, &back, is_narrow) && (is_ranked || is_before(viewpoint, &front, &back))
+        (surely == Some(true) || overlap(view.viewpoint, &front, &back, is_narrow))
+            && (is_ranked || is_before(view.viewpoint, &front, &back))
     }
 
     /// For every face the side of it that the eye is on.
@@ -191,13 +225,22 @@ impl BspTree {
     }
 
     /// Where faces are seen, by sheets, in the order of `faces`.
-    fn sightings(&self, sheets: &Sheets, ranks: &[Ranks], faces: &[u32]) -> Vec<Vec<Sighting>> {
-        let mut sightings = vec![Vec::new(); 6];
-        for &face in faces {
-            sheets.project(&self.faces[face as usize].points, |rectangle| {
-                sightings[usize::from(rectangle.sheet)].push(Sighting { face, ranks: ranks[face as usize], rectangle });
-            });
-        }
-        sightings
+    fn sightings(&self, sheets: &Sheets, ranks: &[Ranks], eye_sides: &[i8], faces: &[u32]) -> Vec<Vec<Sighting>> {
+        let parts: Vec<Vec<Vec<Sighting>>> = faces
+            .par_chunks(FACES_PER_TASK)
+            .map(|faces| {
+                let mut sightings = vec![Vec::new(); 6];
+                for &face in faces {
+                    let (own, ranks, eye_side) = (&self.faces[face as usize], ranks[face as usize], eye_sides[face as usize]);
+                    sheets.project(&own.points, |rectangle, corners| {
+                        let turn = if Sheets::is_mirror(rectangle.sheet) { -eye_side } else { eye_side };
+                        let flat = Flat::new(corners, own.numbers, turn);
+                        sightings[usize::from(rectangle.sheet)].push(Sighting { face, ranks, rectangle, flat });
+                    });
+                }
+                sightings
+            })
+            .collect();
+        (0..6).map(|sheet| parts.iter().flat_map(|part| &part[sheet]).copied().collect()).collect()
     }
 }

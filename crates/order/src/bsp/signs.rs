@@ -8,8 +8,23 @@ use tetrascope_view::Viewpoint;
 ///
 /// Exact ([Shewchuk 1997]) while no product of three coordinates leaves 1e-250..1e300.
 #[inline]
-pub(crate) fn side_of([a, b, c]: [DVec3; 3], p: DVec3) -> i8 {
-    sign(signed_volume([a, b, c], p))
+pub(crate) fn side_of(plane @ [a, b, c]: [DVec3; 3], p: DVec3) -> i8 {
+    // The filter of `robust::orient3d`, here so that it is inlined: nearly all signs are settled by it.
+    let [a, b, c] = [a - p, b - p, c - p];
+    let (bc, ca, ab) = (b.x * c.y, c.x * a.y, a.x * b.y);
+    let (cb, ac, ba) = (c.x * b.y, a.x * c.y, b.x * a.y);
+    let determinant = a.z * (bc - cb) + b.z * (ca - ac) + c.z * (ab - ba);
+    let permanent =
+        a.z.abs() * (bc.abs() + cb.abs()) + b.z.abs() * (ca.abs() + ac.abs()) + c.z.abs() * (ab.abs() + ba.abs());
+    if determinant.abs() > 7.772e-16 * permanent && permanent > 1e-250 {
+        return sign(determinant);
+    }
+    exact_side_of(plane, p)
+}
+
+#[cold]
+fn exact_side_of(plane: [DVec3; 3], p: DVec3) -> i8 {
+    sign(signed_volume(plane, p))
 }
 
 /// The number whose sign [`side_of`] gives: six times a volume, of which the sign is exact and the rest nearly so.

@@ -10,6 +10,8 @@ use super::signs::{eye_side, side_of, sign, signed_volume};
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Face {
     pub(super) points: [DVec3; 3],
+    /// Points of one place have one number.
+    pub(super) numbers: [u32; 3],
     pub(super) cell: CellId,
     /// The side of the face that its cell is on, 1 or -1, in the sense of `side_of`.
     pub(super) cell_side: i8,
