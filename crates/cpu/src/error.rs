@@ -1,6 +1,7 @@
 //! Why a picture was not drawn.
 
 use tetrascope_integrate::Integration;
+use tetrascope_order::CycleRemedy;
 use tetrascope_scene::{IsosurfaceMethod, Mixing, Plan};
 
 /// Why a picture was not drawn.
@@ -44,6 +45,11 @@ pub enum RenderError {
         "\"vertex\" integrates a fan of triangles, which cannot be cut at isosurfaces; use another integration, or isosurfaces by \"map-smooth\""
     )]
     FanWithIsosurfaces,
+    /// A piece of a cell has no fan of triangles.
+    #[error(
+        "\"vertex\" integrates a fan of triangles, which a piece of a cell does not have; use another integration, or the remedy \"per-pixel\" for cycles"
+    )]
+    FanWithCut,
     /// An integral stops at isosurfaces in a table; this integration has none.
     #[error(
         "integration \"{integration}\" has no table in which it could stop; use \"table-2d\" or \"table-3d\", or isosurfaces by \"exact\" or \"map-smooth\""
@@ -71,6 +77,9 @@ pub enum RenderError {
 pub(crate) fn check_methods(plan: &Plan) -> Result<(), RenderError> {
     let integration = plan.integration;
     integration.check(plan.model)?;
+    if plan.cycles == CycleRemedy::Cut && integration.needs_fan() {
+        return Err(RenderError::FanWithCut);
+    }
     if let Some(lighting) = &plan.lighting {
         lighting.phong.check()?;
     }

@@ -61,6 +61,14 @@ impl PixelSpace {
         DVec3::new(direction.dot(right), direction.dot(down), direction.dot(self.forward) * depth_unit)
     }
 
+    /// A plane as the half-space behind it, from the mesh's coordinates. The turned plane gives the same bits with opposite sign.
+    pub(crate) fn face(&self, point: DVec3, normal: DVec3) -> ClipFace {
+        let depth_unit = if self.is_perspective { 1.0 } else { self.slope[1] };
+        // Normals go against distances: what stretches an axis shrinks them along it.
+        let unit = DVec3::new(self.slope[0], self.slope[1], depth_unit);
+        ClipFace { normal: self.direction_in_view(normal) * unit, point: self.transform(point) }
+    }
+
     /// Coordinate of the center of column (or row) `pixel` from the middle of a picture `size` pixels wide. Exact.
     #[inline]
     pub(crate) fn center(pixel: u32, size: u32) -> f64 {
@@ -136,8 +144,15 @@ impl ClipCell {
 
     /// What the ray of the pixel center `(u, w)` has inside, or `None`.
     pub(crate) fn span(&self, is_perspective: bool, u: f64, w: f64) -> Option<Span> {
+        self.span_behind(&[], is_perspective, u, w)
+    }
+
+    /// What a ray has inside of the part of the cell that lies behind `cuts`.
+    ///
+    /// A ray that runs in a cut belongs to one of the two parts, as one in a face does to one of its cells.
+    pub(crate) fn span_behind(&self, cuts: &[ClipFace], is_perspective: bool, u: f64, w: f64) -> Option<Span> {
         let (mut enter, mut leave) = (0.0_f64, f64::INFINITY);
-        for face in &self.faces {
+        for face in self.faces.iter().chain(cuts) {
             let n = face.normal;
             // normal . (origin + depth * direction - point) <= 0, as depth * speed <= room.
             let (room, room_scale, speed, speed_scale) = if is_perspective {

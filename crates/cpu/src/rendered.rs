@@ -25,9 +25,9 @@ pub struct Counts {
     pub transparent: u64,
     /// Of the visible ones, left out since they lie outside the picture or behind the eye.
     pub outside: u64,
-    /// Tetrahedra that were set up and drawn.
+    /// Tetrahedra that were set up and drawn; one that was cut counts as often as it has pieces.
     pub drawn: u64,
-    /// Of these, drawn in f64 pixel by pixel: a face is seen nearly edge-on, or the cell reaches the plane of the eye.
+    /// Of these, drawn in f64 pixel by pixel: a face is seen nearly edge-on, the cell reaches the plane of the eye, or it is a piece.
     pub careful: u64,
     /// Pairs of a pixel and a tetrahedron whose chord was integrated.
     pub fragments: u64,

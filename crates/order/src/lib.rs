@@ -33,6 +33,7 @@ mod bsp_xmpvo;
 mod bucket;
 mod centroid;
 mod convex;
+mod cut;
 mod cycles;
 mod gaps;
 mod method;

@@ -3,7 +3,7 @@
 use super::cell::CarefulCell;
 use super::record::CellRecord;
 use super::sample::{BLOCK_WIDTH, LANE_COLUMN, LANE_ROW, LANES, Sample};
-use crate::geometry::{ClipCell, IN_PLANE, PixelSpace};
+use crate::geometry::{IN_PLANE, PixelSpace};
 use fearless_simd::{Simd, f32x8, f64x8, prelude::*};
 
 /// Columns of the lanes of a block whose left column is `x`, counted from the record's reference pixel.
@@ -22,11 +22,12 @@ fn rows<S: Simd>(simd: S, record: &CellRecord, y: u32) -> f32x8<S> {
 #[inline(always)]
 fn careful_lanes<S: Simd>(
     simd: S,
-    cell: &ClipCell,
+    careful: &CarefulCell,
     reference: f64,
     space: &PixelSpace,
     [x, y]: [u32; 2],
 ) -> Option<[[f32; LANES]; 6]> {
+    let cell = &careful.clip;
     let from = |first: u32, offsets: &[f32; LANES], size: u32| {
         let first = PixelSpace::center(first, size);
         f64x8::load_array(simd, offsets.map(|offset| first + f64::from(offset)))
@@ -34,9 +35,9 @@ fn careful_lanes<S: Simd>(
     let (u, w) = (from(x, &LANE_COLUMN, space.size[0]), from(y, &LANE_ROW, space.size[1]));
     let splat = |value: f64| f64x8::splat(simd, value);
     let (mut enter, mut leave) = (splat(0.0), splat(f64::INFINITY));
-    for face in &cell.faces {
+    for face in cell.faces.iter().chain(&careful.cuts) {
         let (n, p) = (face.normal, face.point);
-        // As in `ClipCell::span`.
+        // As in `ClipCell::span_behind`.
         let across = splat(n.x) * u + splat(n.y) * w;
         let (room, speed) = if space.is_perspective {
             (splat(n.x * p.x + n.y * p.y + n.z * p.z), across + n.z)
@@ -51,7 +52,7 @@ fn careful_lanes<S: Simd>(
             n.z.abs() <= IN_PLANE * n.abs().element_sum()
         };
         if may_run_in_face {
-            return careful_pixels(cell, reference, space, [x, y]);
+            return careful_pixels(careful, reference, space, [x, y]);
         }
         let depth = room / speed;
         let leaves = speed.simd_gt(splat(0.0));
@@ -101,13 +102,18 @@ impl<S: Simd> ToF32s for f64x8<S> {
 
 /// [`careful_lanes`] pixel by pixel, for rays that may run in a face.
 #[cold]
-fn careful_pixels(cell: &ClipCell, reference: f64, space: &PixelSpace, [x, y]: [u32; 2]) -> Option<[[f32; LANES]; 6]> {
+fn careful_pixels(
+    cell: &CarefulCell,
+    reference: f64,
+    space: &PixelSpace,
+    [x, y]: [u32; 2],
+) -> Option<[[f32; LANES]; 6]> {
     let mut lanes = [[0.0; LANES]; 6];
     let mut any = false;
     for lane in 0..LANES {
         let (column, row) = (x + lane as u32 % BLOCK_WIDTH, y + lane as u32 / BLOCK_WIDTH);
         let (u, w) = (PixelSpace::center(column, space.size[0]), PixelSpace::center(row, space.size[1]));
-        if let Some(span) = cell.span(space.is_perspective, u, w) {
+        if let Some(span) = cell.clip.span_behind(&cell.cuts, space.is_perspective, u, w) {
             let length = span.depth[1] - span.depth[0];
             let nearness = if space.is_perspective { length / (span.depth[0] * span.depth[1]) } else { length };
             let [[enter, leave], [front, back]] = [span.depth, span.scalar];
@@ -131,8 +137,7 @@ pub(crate) fn careful_sample<S: Simd>(
     [x, y]: [u32; 2],
 ) -> Option<Sample<S>> {
     let [front, back, length, nearness, enter, leave] =
-        careful_lanes(simd, &cell.clip, record.scalar_reference, space, [x, y])?
-            .map(|lane| f32x8::load_array(simd, lane));
+        careful_lanes(simd, cell, record.scalar_reference, space, [x, y])?.map(|lane| f32x8::load_array(simd, lane));
     let covered = length.simd_gt(f32x8::splat(simd, 0.0));
     let place = [columns(simd, record, x), rows(simd, record, y)];
     Some(Sample { front, back, length, nearness, depth: [enter, leave], place, covered })

@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use crate::geometry::ClipCell;
+use crate::geometry::{ClipCell, ClipFace};
 
 /// The pixels that a cell may cover: first and last column, first and last row.
 pub(crate) type Outline = [u16; 4];
@@ -22,11 +22,14 @@ pub(crate) struct Cell {
     pub(crate) pieces: CellPieces,
 }
 
-/// Corners and scalars of a cell that is drawn in f64, in ascending order of the vertices.
-#[derive(Clone, Copy, Debug)]
+/// A cell that is drawn in f64, or a piece of one.
+#[derive(Clone, Debug)]
 pub(crate) struct CarefulCell {
+    /// The cell's, in ascending order of the vertices.
     pub(crate) corners: [DVec3; 4],
     pub(crate) clip: ClipCell,
+    /// What else bounds a piece; none for a whole cell, which takes no memory.
+    pub(crate) cuts: Box<[ClipFace]>,
 }
 
 /// The pieces of the transfer function that a cell's range of scalars meets: `first .. first + count`.

@@ -36,7 +36,7 @@ use rayon::prelude::*;
 
 use tetrascope_integrate::{Integration, Isosurfaces};
 use tetrascope_mesh::{CellId, ChordLengths, Frame, TetMesh, VertexId, point_gradients, segment_lengths};
-use tetrascope_order::{Cells, MeshVisibility, OrderMethod, VisibilityOrder};
+use tetrascope_order::{Cells, CycleRemedy, MeshVisibility, OrderMethod, VisibilityOrder};
 use tetrascope_scene::{Gradients, Plan, Progress, Stage};
 use tetrascope_view::LinearImage;
 
@@ -209,18 +209,32 @@ impl CpuRenderer {
         let seen: Vec<CellId> =
             optics.visible().par_iter().copied().filter(|cell| outlines[cell.index()] != NOWHERE).collect();
         let cells = self.cells();
-        let order = self.order(plan.order, cells).order.order(cells, view.viewpoint(), &seen);
+        let mut order = self.order(plan.order, cells).order.order(cells, view.viewpoint(), &seen);
+        let cyclic = order.cycles.iter().map(|ring| ring.len() as u64).sum();
+        if plan.cycles == CycleRemedy::Cut {
+            order = order.cut_cycles(cells, view.viewpoint());
+        }
         watch.lap(Stage::Order);
 
         let with_fans = plan.integration == Integration::Vertex;
         let effects = effects.as_ref();
-        let setup =
-            SetUp { renderer: self, points, space: &space, outlines, optics: &optics, with_fans, effects, gradients };
+        let setup = SetUp {
+            renderer: self,
+            points,
+            space: &space,
+            outlines,
+            optics: &optics,
+            with_fans,
+            effects,
+            gradients,
+            pieces: &order.pieces,
+        };
         records.resize_with(order.front_to_back.len().div_ceil(CHUNK), Records::default);
         records
             .par_iter_mut()
             .zip(order.front_to_back.par_chunks(CHUNK))
-            .for_each(|(records, cells)| setup.fill(cells, records));
+            .enumerate()
+            .for_each(|(chunk, (records, cells))| setup.fill(chunk * CHUNK, cells, records));
         watch.lap(Stage::SetUp);
 
         let grid = TileGrid::new(space.size, TILE_SIDE);
@@ -276,7 +290,7 @@ impl CpuRenderer {
             careful: records.iter().map(|r| r.careful.len() as u64).sum(),
             fragments: fragments.into_inner(),
             crossings: crossings.into_inner(),
-            cyclic: order.cycles.iter().map(|ring| ring.len() as u64).sum(),
+            cyclic,
         };
         *self.scratch.lock().unwrap_or_else(PoisonError::into_inner) = Some(scratch);
         Ok(Rendered { image, timings: watch.finish(), counts })
@@ -390,5 +404,7 @@ fn scalar_factor([low, high]: [f64; 2]) -> f64 {
     }
 }
 
+#[cfg(test)]
+mod pieces_tests;
 #[cfg(test)]
 mod tests;

@@ -1,9 +1,11 @@
-//! Set-up: a tetrahedron becomes a record of planes in f32, or, where f32 cannot hold it, a cell to be drawn carefully.
+//! Set-up: a tetrahedron becomes a record of planes in f32, or, where f32 cannot hold it or it was cut, a cell to be drawn
+//! carefully.
 
 use fearless_simd::dispatch;
 use glam::{DVec2, DVec3};
 use tetrascope_classify::{DepthPlane, cut_at_depth};
 use tetrascope_mesh::{CellId, VertexId};
+use tetrascope_order::{CutPlane, Piece};
 
 use super::CpuRenderer;
 use super::cell::{CarefulCell, Cell, Outline};
@@ -37,6 +39,8 @@ pub(crate) struct SetUp<'a> {
     pub(crate) effects: Option<&'a Effects>,
     /// The gradient at every point, along the mesh's axes, where they are interpolated.
     pub(crate) gradients: &'a [DVec3],
+    /// What cuts the cells at some places of the order, by ascending place.
+    pub(crate) pieces: &'a [Piece],
 }
 
 /// Fans have no place on the screen for what lies behind the eye: cells are cut at this share of their farthest depth.
@@ -44,19 +48,24 @@ const FAN_NEAR: f64 = 1e-4;
 
 impl SetUp<'_> {
     /// Sets up cells in the order given; those without volume are left out. What was in `records` gives its memory.
-    pub(crate) fn fill(&self, cells: &[CellId], records: &mut Records) {
+    ///
+    /// - `place`: of the first of them in the order
+    pub(crate) fn fill(&self, place: usize, cells: &[CellId], records: &mut Records) {
         records.cells.clear();
         records.careful.clear();
         records.fans.clear();
         records.effects.clear();
         records.gradients.clear();
         records.flat_gradients.clear();
-        dispatch!(self.renderer.level, _simd => self.fill_here(cells, records));
+        dispatch!(self.renderer.level, _simd => self.fill_here(place, cells, records));
     }
 
     /// [`Self::fill`], compiled for the processor's instructions.
     #[inline(always)]
-    fn fill_here(&self, cells: &[CellId], records: &mut Records) {
+    fn fill_here(&self, place: usize, cells: &[CellId], records: &mut Records) {
+        let at = |place: usize| self.pieces.partition_point(|piece| (piece.place as usize) < place);
+        let mut pieces = self.pieces[at(place)..at(place + cells.len())].iter().peekable();
+        let mut places = place..;
         let mut vertices = Vec::with_capacity(BATCH);
         let mut batch = Vec::with_capacity(BATCH);
         for cells in cells.chunks(BATCH) {
@@ -74,9 +83,11 @@ impl SetUp<'_> {
                     pieces: self.optics.pieces_of(cell),
                 });
             }
-            for (cell, vertices) in batch.iter().zip(&vertices) {
+            for ((cell, vertices), place) in batch.iter().zip(&vertices).zip(&mut places) {
                 let before = records.cells.len();
-                if self.with_fans {
+                if let Some(piece) = pieces.next_if(|piece| piece.place as usize == place) {
+                    self.add_piece(cell, &piece.planes, records);
+                } else if self.with_fans {
                     self.add_with_fan(cell, records);
                 } else {
                     self.add(cell, records);
@@ -93,10 +104,20 @@ impl SetUp<'_> {
     fn add(&self, cell: &Cell, records: &mut Records) {
         let record = self.record(cell).or_else(|| {
             let clip = ClipCell::new(&cell.corners, &cell.scalars, cell.is_positive)?;
-            records.careful.push(CarefulCell { corners: cell.corners, clip });
+            records.careful.push(CarefulCell { corners: cell.corners, clip, cuts: Box::default() });
             Some(self.careful_record(cell, records.careful.len() - 1))
         });
         records.cells.extend(record);
+    }
+
+    /// Adds the part of a cell that lies behind planes, if the cell has volume; in f64, where any number of planes can bound it.
+    #[cold]
+    fn add_piece(&self, cell: &Cell, planes: &[CutPlane], records: &mut Records) {
+        let Some(clip) = ClipCell::new(&cell.corners, &cell.scalars, cell.is_positive) else { return };
+        let cuts = planes.iter().map(|plane| self.space.face(plane.point, plane.normal)).collect();
+        let record = self.careful_record(cell, records.careful.len());
+        records.careful.push(CarefulCell { corners: cell.corners, clip, cuts });
+        records.cells.push(record);
     }
 
     /// Adds a cell's effects and makes the records that it has become, from `first` on, point to them.

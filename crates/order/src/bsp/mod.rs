@@ -49,7 +49,7 @@ use tetrascope_mesh::{CellFace, CellId, FaceAdjacency};
 
 use crate::Cells;
 pub use arrows::ArrowReport;
-pub(crate) use signs::side_of;
+pub(crate) use signs::{eye_side, side_of};
 use split::Face;
 use tree::Tree;
 

@@ -41,7 +41,7 @@ pub(super) fn signed_volume([a, b, c]: [DVec3; 3], p: DVec3) -> f64 {
 /// The side of the plane through three points that the eye is on; in a parallel view it lies infinitely far against the
 /// direction. 0 where the plane is seen edge-on. The signs are those of [`side_of`].
 #[inline]
-pub(super) fn eye_side(points: [DVec3; 3], viewpoint: Viewpoint) -> i8 {
+pub(crate) fn eye_side(points: [DVec3; 3], viewpoint: Viewpoint) -> i8 {
     let [a, b, c] = points;
     if a == b || b == c || c == a {
         return 0;
