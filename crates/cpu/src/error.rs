@@ -1,6 +1,7 @@
 //! Why a picture was not drawn.
 
 use tetrascope_integrate::Integration;
+use tetrascope_order::PixelSort;
 use tetrascope_scene::{IsosurfaceMethod, Mixing, Plan};
 
 /// Why a picture was not drawn.
@@ -57,6 +58,9 @@ pub enum RenderError {
         "only opaque isosurfaces end an integral in a table; use isosurfaces by \"exact\", which go with every table, or \"map-smooth\""
     )]
     StoppedByTransparent,
+    /// A k-buffer that holds nothing back has nothing to blend.
+    #[error("a \"k-buffer\" with a window of 0 cells holds nothing; ask for 1 or more")]
+    EmptyWindow,
     /// The operating system gave no threads.
     #[error("{threads} threads could not be started: {problem}; ask for fewer")]
     Threads {
@@ -71,6 +75,9 @@ pub enum RenderError {
 pub(crate) fn check_methods(plan: &Plan) -> Result<(), RenderError> {
     let integration = plan.integration;
     integration.check(plan.model)?;
+    if plan.order.pixel_sort() == PixelSort::Window(0) {
+        return Err(RenderError::EmptyWindow);
+    }
     if let Some(lighting) = &plan.lighting {
         lighting.phong.check()?;
     }

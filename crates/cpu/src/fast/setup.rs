@@ -37,6 +37,8 @@ pub(crate) struct SetUp<'a> {
     pub(crate) effects: Option<&'a Effects>,
     /// The gradient at every point, along the mesh's axes, where they are interpolated.
     pub(crate) gradients: &'a [DVec3],
+    /// For every cell whether it lies in a ring whose pixels are to be sorted; empty if there are none.
+    pub(crate) in_ring: &'a [bool],
 }
 
 /// Fans have no place on the screen for what lies behind the eye: cells are cut at this share of their farthest depth.
@@ -49,6 +51,7 @@ impl SetUp<'_> {
         records.careful.clear();
         records.fans.clear();
         records.effects.clear();
+        records.rings.clear();
         records.gradients.clear();
         records.flat_gradients.clear();
         dispatch!(self.renderer.level, _simd => self.fill_here(cells, records));
@@ -74,7 +77,7 @@ impl SetUp<'_> {
                     pieces: self.optics.pieces_of(cell),
                 });
             }
-            for (cell, vertices) in batch.iter().zip(&vertices) {
+            for ((cell, vertices), id) in batch.iter().zip(&vertices).zip(cells) {
                 let before = records.cells.len();
                 if self.with_fans {
                     self.add_with_fan(cell, records);
@@ -83,6 +86,9 @@ impl SetUp<'_> {
                 }
                 if let Some(effects) = self.effects {
                     self.add_effects(effects, cell, vertices, before, records);
+                }
+                if self.in_ring.get(id.index()) == Some(&true) {
+                    records.rings.extend(before as u32..records.cells.len() as u32);
                 }
             }
         }
@@ -237,7 +243,7 @@ impl SetUp<'_> {
             entry_count: entry as u32,
             careful: 0,
             effects: NO_EFFECTS,
-            depth: depth as f32,
+            depth: (depth - self.space.start) as f32,
         })
     }
 
