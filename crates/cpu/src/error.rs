@@ -1,7 +1,7 @@
 //! Why a picture was not drawn.
 
 use tetrascope_integrate::Integration;
-use tetrascope_order::CycleRemedy;
+use tetrascope_order::{CycleRemedy, PixelSort};
 use tetrascope_scene::{IsosurfaceMethod, Mixing, Plan};
 
 /// Why a picture was not drawn.
@@ -63,6 +63,9 @@ pub enum RenderError {
         "only opaque isosurfaces end an integral in a table; use isosurfaces by \"exact\", which go with every table, or \"map-smooth\""
     )]
     StoppedByTransparent,
+    /// A k-buffer that holds nothing back has nothing to blend.
+    #[error("a \"k-buffer\" with a window of 0 cells holds nothing; ask for 1 or more")]
+    EmptyWindow,
     /// The operating system gave no threads.
     #[error("{threads} threads could not be started: {problem}; ask for fewer")]
     Threads {
@@ -79,6 +82,9 @@ pub(crate) fn check_methods(plan: &Plan) -> Result<(), RenderError> {
     integration.check(plan.model)?;
     if plan.cycles == CycleRemedy::Cut && integration.needs_fan() {
         return Err(RenderError::FanWithCut);
+    }
+    if plan.order.pixel_sort() == PixelSort::Window(0) {
+        return Err(RenderError::EmptyWindow);
     }
     if let Some(lighting) = &plan.lighting {
         lighting.phong.check()?;

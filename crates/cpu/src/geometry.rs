@@ -23,6 +23,9 @@ pub(crate) struct PixelSpace {
     pub(crate) slope: [f64; 2],
     /// Pixels a row, and rows.
     pub(crate) size: [u32; 2],
+    /// A depth in front of the whole mesh and near it; 0 if the eye is near. Depths in f32 count from here, so that they tell cells apart from
+    /// however far away.
+    pub(crate) start: f64,
 }
 
 impl PixelSpace {
@@ -39,6 +42,8 @@ impl PixelSpace {
             world_per_depth: world_per_local * depth_unit,
             slope,
             size: [view.width, view.height],
+            // Local coordinates are at most 1 long, but for the frame's rounding.
+            start: ((-view.eye).dot(view.forward) - 1.25).max(0.0) / depth_unit,
         }
     }
 

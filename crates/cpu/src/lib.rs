@@ -12,8 +12,7 @@
 //! exactly in a face, along an edge or through a vertex belongs to exactly one cell.
 //!
 //! Isosurfaces are met along the ray, inside the cells. On which side of them a ray leaves one cell is on which side it
-//! enters the next, so that no surface is missed or met twice between them; in the fast renderer where the order is right and
-//! the eye not farther than some 10,000 mesh sizes. The reference cuts rays at the crossings
+//! enters the next, so that no surface is missed or met twice between them; in the fast renderer where the order is right. The reference cuts rays at the crossings
 //! whatever the plan says of maps, which approximate that. Gradients, tables and maps are made if the plan asks for them.
 //!
 //! ```
@@ -39,8 +38,13 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
-//! Limits: cells are blended in one global order, so that the fast renderer is right only where that order is, for the
-//! sides of isosurfaces too; the reference keeps all fragments of a tile in memory and has no fan for
+//! Cells are blended in one global order, so that the fast renderer is right only where that order is, for the sides of isosurfaces too;
+//! unless the plan leaves the order to the pixels: [`OrderMethod::PerPixel`](tetrascope_order::OrderMethod::PerPixel) sorts all that a
+//! ray meets and is right on every mesh whose cells do not overlap, [`OrderMethod::KBuffer`](tetrascope_order::OrderMethod::KBuffer)
+//! within a window, and [`CycleRemedy::PerPixel`](tetrascope_order::CycleRemedy::PerPixel) only where cells lie in rings. Their cost is a
+//! list of the fragments of each tile; without an order a tile cannot end early where it is opaque.
+//!
+//! Limits: the reference keeps all fragments of a tile in memory and has no fan for
 //! [`Integration::Vertex`](tetrascope_integrate::Integration::Vertex).
 
 mod domain;

@@ -161,6 +161,8 @@ fn render_here(mesh: &TetMesh, scalars: &[f64], plan: &Plan, progress: &dyn Prog
         fragments,
         crossings,
         cyclic: 0,
+        sorted: fragments,
+        most_held: 0,
     };
     Ok(Rendered { image, timings: watch.finish(), counts })
 }

@@ -35,6 +35,10 @@ pub struct Counts {
     pub crossings: u64,
     /// Tetrahedra of the mesh that hide one another in rings, where the order looks for them: no order of whole cells is right there.
     pub cyclic: u64,
+    /// Of the fragments, those that their pixel held back and sorted.
+    pub sorted: u64,
+    /// Most fragments that one tile of the picture held back at one time.
+    pub most_held: u64,
 }
 
 /// Measures stages one after another.

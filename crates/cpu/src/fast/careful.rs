@@ -18,7 +18,8 @@ fn rows<S: Simd>(simd: S, record: &CellRecord, y: u32) -> f32x8<S> {
     f32x8::from_slice(simd, &LANE_ROW) + (y as i32 - i32::from(record.pixel[1])) as f32
 }
 
-/// What a cell has in the block at `(x, y)`, in f64: scalars from `reference`, depth between, nearness, depths.
+/// What a cell has in the block at `(x, y)`, in f64: scalars from `reference`, depth between, nearness, depths
+/// from [`PixelSpace::start`].
 #[inline(always)]
 fn careful_lanes<S: Simd>(
     simd: S,
@@ -82,8 +83,16 @@ fn careful_lanes<S: Simd>(
         (scalar.max(cell.scalar_range[0]).min(cell.scalar_range[1]) - reference).to_f32s()
     };
     let length = leave - enter;
+    let from_start = |depth: f64x8<S>| (depth - space.start).to_f32s();
     let nearness = if space.is_perspective { covered.select(length / (enter * leave), splat(0.0)) } else { length };
-    Some([scalar_at(enter), scalar_at(leave), length.to_f32s(), nearness.to_f32s(), enter.to_f32s(), leave.to_f32s()])
+    Some([
+        scalar_at(enter),
+        scalar_at(leave),
+        length.to_f32s(),
+        nearness.to_f32s(),
+        from_start(enter),
+        from_start(leave),
+    ])
 }
 
 /// Eight numbers in 32 bits.
@@ -117,7 +126,8 @@ fn careful_pixels(
             let length = span.depth[1] - span.depth[0];
             let nearness = if space.is_perspective { length / (span.depth[0] * span.depth[1]) } else { length };
             let [[enter, leave], [front, back]] = [span.depth, span.scalar];
-            let values = [front - reference, back - reference, length, nearness, enter, leave];
+            let values =
+                [front - reference, back - reference, length, nearness, enter - space.start, leave - space.start];
             for (lanes, value) in lanes.iter_mut().zip(values) {
                 lanes[lane] = value as f32;
             }

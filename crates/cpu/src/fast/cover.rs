@@ -4,6 +4,7 @@ use fearless_simd::{Simd, f32x8, prelude::*};
 
 use super::record::CellRecord;
 use super::sample::{BLOCK_HEIGHT, BLOCK_WIDTH, LANE_COLUMN, LANE_ROW, LANES, Sample};
+use crate::geometry::PixelSpace;
 
 /// Blocks of a tile that a cell may cover: a rectangle of them.
 #[derive(Clone, Copy, Debug)]
@@ -107,10 +108,10 @@ impl CoverList {
         simd: S,
         index: usize,
         record: &CellRecord,
-        is_perspective: bool,
+        space: &PixelSpace,
     ) -> (usize, Sample<S>) {
         let item = &self.items[index & (MAX_BLOCKS - 1)];
-        (item.block as usize, item.sample(simd, record, is_perspective))
+        (item.block as usize, item.sample(simd, record, space))
     }
 }
 
@@ -123,7 +124,7 @@ fn over<S: Simd>(simd: S, plane: &[f32; 3], columns: f32x8<S>, rows: f32x8<S>) -
 
 impl Cover {
     #[inline(always)]
-    fn sample<S: Simd>(&self, simd: S, record: &CellRecord, is_perspective: bool) -> Sample<S> {
+    fn sample<S: Simd>(&self, simd: S, record: &CellRecord, space: &PixelSpace) -> Sample<S> {
         let columns = f32x8::from_slice(simd, &LANE_COLUMN) + self.place[0];
         let rows = f32x8::from_slice(simd, &LANE_ROW) + self.place[1];
         let (entry, exit) = (f32x8::from_slice(simd, &self.entry), f32x8::from_slice(simd, &self.exit));
@@ -139,15 +140,18 @@ impl Cover {
         let back = slope.mul_add(exit, across);
         let [low, high] = record.scalar_range;
         let nearness = entry - exit;
-        let reference = f32x8::splat(simd, record.depth);
-        let (front, back, length, depth) = if is_perspective {
+        let depth = f32x8::splat(simd, record.depth);
+        let (front, back, length, depth) = if space.is_perspective {
             // One division serves both ends.
             let (at_entry, at_exit) = (entry + 1.0, exit + 1.0);
             let inverse = f32x8::splat(simd, 1.0) / (at_entry * at_exit);
             let [nearer, farther] = [inverse * at_exit, inverse * at_entry];
-            (front * nearer, back * farther, nearness * inverse, [reference * nearer, reference * farther])
+            // The reference's depth and what is to be added to it: from far away the sum would lose what tells cells apart.
+            let from_eye = -(depth + space.start as f32);
+            let depths = [(from_eye * entry).mul_add(nearer, depth), (from_eye * exit).mul_add(farther, depth)];
+            (front * nearer, back * farther, nearness * inverse, depths)
         } else {
-            (front, back, nearness, [reference - entry, reference - exit])
+            (front, back, nearness, [depth - entry, depth - exit])
         };
         let (front, back) = (front.max(low).min(high), back.max(low).min(high));
         Sample { front, back, length, nearness, depth, place: [columns, rows], covered }

@@ -45,11 +45,11 @@ pub(crate) fn surfaces_near(surfaces: &Isosurfaces, low: f64, high: f64) -> Rang
 }
 
 /// Depths are off by at most this share of a cell's own range of depths (a steep plane, see `STEEP` in set-up, has 2e-5 of it), and
-/// by this share of the depth itself (a few roundings).
+/// by this share of the depth itself, which counts from where the mesh begins (a few roundings).
 const SLACK: [f64; 2] = [1e-4, 1e-6];
 
-/// Most of it, as a share of a cell's own range of depths: seen from so far that f32 does not tell one cell's depth from the
-/// next one's, cells in a wrong order would take each other's sides. Then each has its own.
+/// Most of it, as a share of a cell's own range of depths: where f32 does not tell one cell's depth from the next one's, cells in
+/// a wrong order would take each other's sides. Then each has its own.
 const MOST_SLACK: f64 = 0.05;
 
 /// The isosurfaces and the light of a frame.
@@ -61,6 +61,8 @@ pub(crate) struct Effects {
     pub(crate) maps: Option<Arc<Maps>>,
     pub(crate) light: Option<Lamp>,
     pub(crate) gradients: Gradients,
+    /// Depth that depths count from, see [`PixelSpace::start`].
+    start: f64,
 }
 
 /// The light of a frame, in the camera's axes: right, down, forward.
@@ -107,7 +109,7 @@ impl Effects {
         if surfaces.is_empty() && !light.is_some_and(|light| light.volume) {
             return None;
         }
-        Some(Self { surfaces: surfaces.clone(), maps, light, gradients: plan.gradients() })
+        Some(Self { surfaces: surfaces.clone(), maps, light, gradients: plan.gradients(), start: space.start })
     }
 
     /// Which cells have effects: those that an isosurface may cut, and all where the volume is lit.
@@ -122,7 +124,7 @@ impl Effects {
         if near.is_empty() && !self.light.is_some_and(|light| light.volume) {
             return None;
         }
-        let (nearest, farthest) = bounds(&depths);
+        let (nearest, farthest) = bounds(&depths.map(|depth| depth - self.start));
         let range = farthest - nearest;
         let slack = (SLACK[0] * range + SLACK[1] * farthest.abs().max(nearest.abs())).min(MOST_SLACK * range);
         Some(CellEffects { first: near.start as u32, count: near.len() as u32, slack: slack as f32 })

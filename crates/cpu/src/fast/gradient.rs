@@ -12,7 +12,7 @@ use crate::geometry::PixelSpace;
 /// renderer's; the light asks for directions alone.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct CellGradient {
-    /// A corner in pixel space, and the gradient there.
+    /// A corner in pixel space, its depth from [`PixelSpace::start`], and the gradient there.
     anchor: [f32; 3],
     at_anchor: [f32; 3],
     /// Slope of each component along the axes of pixel space.
@@ -49,14 +49,14 @@ impl CellGradient {
             [low as f32, values.iter().fold(f64::NEG_INFINITY, |m, &g| m.max(g)) as f32]
         };
         Self {
-            anchor: cell.corners[0].to_array().map(|x| x as f32),
+            anchor: (cell.corners[0] - DVec3::Z * space.start).to_array().map(|x| x as f32),
             at_anchor: at_corners[0].map(|g| g as f32),
             slope: [0, 1, 2].map(|axis| slope(cell, component(axis)).to_array().map(bounded)),
             range: [0, 1, 2].map(|axis| range(component(axis))),
         }
     }
 
-    /// The gradient at a place in pixel space.
+    /// The gradient at a place in pixel space, its depth from [`PixelSpace::start`].
     #[inline(always)]
     pub(crate) fn at<S: Simd>(&self, simd: S, place: [f32x8<S>; 3]) -> [f32x8<S>; 3] {
         let [x, y, z] = [place[0] - self.anchor[0], place[1] - self.anchor[1], place[2] - self.anchor[2]];

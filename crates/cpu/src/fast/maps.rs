@@ -6,6 +6,7 @@ use tetrascope_integrate::{IsosurfaceError, Isosurfaces, SurfaceShading};
 use tetrascope_scene::{IsosurfaceMethod, Mixing, Plan};
 
 use super::methods::CellOptics;
+use super::record::CellRecord;
 use super::sample::{LANES, Light, Sample};
 use super::surfaces::{CellWithEffects, Joint, Shade};
 
@@ -82,6 +83,16 @@ impl Maps {
         self.key == *key
     }
 
+    /// The texels of both ends of a block's segments.
+    #[inline(always)]
+    pub(crate) fn texels<S: Simd>(&self, simd: S, record: &CellRecord, sample: &Sample<S>) -> [f32x8<S>; 2] {
+        let at_reference = ((record.scalar_reference - self.axis.start) * self.axis.per_scalar) as f32;
+        let at_reference = f32x8::splat(simd, at_reference);
+        let per_scalar = f32x8::splat(simd, self.axis.per_scalar as f32);
+        [sample.front, sample.back]
+            .map(|scalar| to_lanes(simd, self.axis.texel_lanes(simd, per_scalar.mul_add(scalar, at_reference))))
+    }
+
     /// The light of a block, and the number of lanes in which a surface is seen.
     #[inline(always)]
     pub(crate) fn shade<S: Simd>(
@@ -93,11 +104,7 @@ impl Maps {
         joint: &mut Joint,
         shade: Shade<S>,
     ) -> (Light<S>, u64) {
-        let reference = with_effects.record.scalar_reference;
-        let at_reference = f32x8::splat(simd, ((reference - self.axis.start) * self.axis.per_scalar) as f32);
-        let per_scalar = f32x8::splat(simd, self.axis.per_scalar as f32);
-        let own = [sample.front, sample.back]
-            .map(|scalar| to_lanes(simd, self.axis.texel_lanes(simd, per_scalar.mul_add(scalar, at_reference))));
+        let own = self.texels(simd, with_effects.record, sample);
         let front = joint.carry(simd, sample, with_effects.slack, own);
         // On the diagonal nothing is crossed.
         let front = sample.covered.select(front, own[1]);

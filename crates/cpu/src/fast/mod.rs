@@ -5,17 +5,21 @@
 //! 2. order: the cells that can be seen, sorted front to back by the plan's order;
 //! 3. set up: each cell becomes a [`record::CellRecord`] in that order: four planes in f32 about a reference inside the cell;
 //! 4. bin: which tiles each record touches;
-//! 5. rasterize: each tile, on one core, blends its records front to back.
+//! 5. rasterize: each tile, on one core, blends its records front to back; where the plan says so, pixels hold segments back and sort
+//!    them by themselves (`held`).
 //!
 //! Cells stay in one order from stage 2 on and every tile is drawn by one thread, so that the picture does not depend on the number of
 //! threads. What depends on the transfer function alone is kept from frame to frame.
 
+mod blocks;
 mod careful;
 mod cell;
 mod cover;
+mod deal;
 mod effects;
 mod fan;
 mod gradient;
+mod held;
 mod lookup;
 mod maps;
 mod methods;
@@ -24,7 +28,9 @@ mod optics;
 mod record;
 mod sample;
 mod setup;
+mod sides;
 mod surfaces;
+mod survey;
 mod tile;
 
 use std::sync::atomic::{AtomicU64, Ordering};
@@ -47,11 +53,13 @@ use crate::rendered::Stopwatch;
 use crate::{Counts, RenderError, Rendered};
 use cell::{NOWHERE, Outline};
 use effects::Effects;
+use held::Held;
 use lookup::Lookup;
 use maps::Maps;
 use optics::Optics;
 use record::{CellRecord, Records};
 use setup::SetUp;
+use survey::Sorting;
 
 /// Pixels a side of a tile: color, transmittance and ray of its pixels take 20 KiB, which leaves room in a first-level cache.
 const TILE_SIDE: u32 = 32;
@@ -66,7 +74,8 @@ const KEPT: usize = 2;
 ///
 /// Holds its own copy of what it needs: 17 bytes a tetrahedron and 32 a point, and up to 12 more a tetrahedron for each of
 /// the last two transfer functions. The memory of a frame is kept for the next one: about 140 bytes a visible tetrahedron. Where
-/// plans ask for them, also 24 bytes a point of gradients, and the last two tables and maps.
+/// plans ask for them, also 24 bytes a point of gradients, and the last two tables and maps; and where pixels sort by themselves, for each
+/// thread 32 bytes for every fragment of the fullest tile of 32 by 32 pixels, or with a window, of those that it holds back.
 #[derive(Debug)]
 pub struct CpuRenderer {
     frame: Frame,
@@ -113,6 +122,8 @@ struct Scratch {
     outlines: Vec<Outline>,
     records: Vec<Records>,
     tiles: Vec<tile::Pixels>,
+    /// One a thread, where pixels sort.
+    held: Mutex<Vec<Box<Held>>>,
 }
 
 impl CpuRenderer {
@@ -197,7 +208,7 @@ impl CpuRenderer {
         }
 
         let mut scratch = self.scratch.lock().unwrap_or_else(PoisonError::into_inner).take().unwrap_or_default();
-        let Scratch { points, outlines, records, tiles } = &mut scratch;
+        let Scratch { points, outlines, records, tiles, held } = &mut scratch;
         points.project(&space, &self.positions, &self.scalars);
         watch.lap(Stage::Transform);
 
@@ -216,6 +227,13 @@ impl CpuRenderer {
         }
         watch.lap(Stage::Order);
 
+        let rings_sort = plan.cycles == CycleRemedy::PerPixel && !order.cycles.is_empty();
+        let mut in_ring = vec![false; if rings_sort { self.tetrahedra.len() } else { 0 }];
+        if rings_sort {
+            for cell in order.cycles.iter().flatten() {
+                in_ring[cell.index()] = true;
+            }
+        }
         let with_fans = plan.integration == Integration::Vertex;
         let effects = effects.as_ref();
         let setup = SetUp {
@@ -228,6 +246,7 @@ impl CpuRenderer {
             effects,
             gradients,
             pieces: &order.pieces,
+            in_ring: &in_ring,
         };
         records.resize_with(order.front_to_back.len().div_ceil(CHUNK), Records::default);
         records
@@ -237,6 +256,7 @@ impl CpuRenderer {
             .for_each(|(chunk, (records, cells))| setup.fill(chunk * CHUNK, cells, records));
         watch.lap(Stage::SetUp);
 
+        let sorting = Sorting::of(plan, rings_sort, held);
         let grid = TileGrid::new(space.size, TILE_SIDE);
         let bins: Vec<Bins> = records
             .par_iter()
@@ -248,7 +268,7 @@ impl CpuRenderer {
             .collect();
         watch.lap(Stage::Bin);
 
-        let (fragments, crossings) = (AtomicU64::new(0), AtomicU64::new(0));
+        let [fragments, crossings, sorted, most_held] = [0; 4].map(AtomicU64::new);
         let done = AtomicU64::new(0);
         let job = tile::Job {
             records,
@@ -259,6 +279,7 @@ impl CpuRenderer {
             plan,
             lookup: lookup.as_deref(),
             effects,
+            sorting,
             level: self.level,
         };
         tiles.resize_with(grid.len(), tile::Pixels::default);
@@ -266,6 +287,8 @@ impl CpuRenderer {
             let drawn = job.draw(index, pixels);
             fragments.fetch_add(drawn.fragments, Ordering::Relaxed);
             crossings.fetch_add(drawn.crossings, Ordering::Relaxed);
+            sorted.fetch_add(drawn.sorted, Ordering::Relaxed);
+            most_held.fetch_max(drawn.most_held, Ordering::Relaxed);
             progress.report(Stage::Rasterize, done.fetch_add(1, Ordering::Relaxed) + 1, grid.len() as u64);
         });
         let mut image = LinearImage::transparent(space.size[0], space.size[1]);
@@ -291,6 +314,8 @@ impl CpuRenderer {
             fragments: fragments.into_inner(),
             crossings: crossings.into_inner(),
             cyclic,
+            sorted: sorted.into_inner(),
+            most_held: most_held.into_inner(),
         };
         *self.scratch.lock().unwrap_or_else(PoisonError::into_inner) = Some(scratch);
         Ok(Rendered { image, timings: watch.finish(), counts })
@@ -406,5 +431,7 @@ fn scalar_factor([low, high]: [f64; 2]) -> f64 {
 
 #[cfg(test)]
 mod pieces_tests;
+#[cfg(test)]
+mod sorting_tests;
 #[cfg(test)]
 mod tests;

@@ -19,6 +19,10 @@ use crate::grid::Tile;
 #[derive(Clone, Copy, Debug)]
 #[repr(C, align(64))]
 pub(crate) struct CellRecord {
+    /// The scalar at the reference.
+    pub(crate) scalar_reference: f64,
+    /// World length of the cell's unit of length.
+    pub(crate) length: f64,
     /// Relative nearness of the four faces' planes, entry faces first: at the reference pixel, per column, per row.
     pub(crate) planes: [[f32; 3]; 4],
     /// `G` per column and row, and `k`.
@@ -27,10 +31,6 @@ pub(crate) struct CellRecord {
     pub(crate) nearness_range: [f32; 2],
     /// Lowest and highest scalar, relative to the reference.
     pub(crate) scalar_range: [f32; 2],
-    /// The scalar at the reference.
-    pub(crate) scalar_reference: f64,
-    /// World length of the cell's unit of length.
-    pub(crate) length: f64,
     /// The reference pixel: column and row.
     pub(crate) pixel: [u16; 2],
     pub(crate) outline: Outline,
@@ -41,12 +41,15 @@ pub(crate) struct CellRecord {
     pub(crate) careful: u32,
     /// Its number in [`Records::effects`], or [`NO_EFFECTS`].
     pub(crate) effects: u32,
-    /// Depth of the reference in pixel space.
+    /// Depth of the reference in pixel space, from [`PixelSpace::start`].
     pub(crate) depth: f32,
 }
 
 /// The number of the effects of a cell that is drawn as volume alone.
 pub(crate) const NO_EFFECTS: u32 = u32::MAX;
+
+/// Two lines: a frame fetches as many of them as it draws cells in tiles, scattered in memory.
+const _: () = assert!(size_of::<CellRecord>() == 128);
 
 impl CellRecord {
     pub(crate) fn pixel_box(&self) -> PixelBox {
@@ -63,6 +66,8 @@ pub(crate) struct Records {
     pub(crate) fans: Vec<Option<Fan>>,
     /// What cells have besides their volume; those that have it.
     pub(crate) effects: Vec<CellEffects>,
+    /// Places among `cells` of those in rings whose pixels are to be sorted, ascending.
+    pub(crate) rings: Vec<u32>,
     /// Gradients of the same cells, where something is lit, else none.
     pub(crate) gradients: Vec<CellGradient>,
     /// Their constant gradients, where those are interpolated and some surface is to be lit flat, else none.

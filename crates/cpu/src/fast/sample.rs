@@ -28,7 +28,7 @@ pub(crate) struct Sample<S: Simd> {
     pub(crate) length: f32x8<S>,
     /// Difference of nearness between the two ends, relative to the record's reference depth: what is linear on the screen.
     pub(crate) nearness: f32x8<S>,
-    /// Depth where the rays enter and leave, in pixel space.
+    /// Depth where the rays enter and leave, in pixel space, from [`PixelSpace::start`].
     pub(crate) depth: [f32x8<S>; 2],
     /// Columns and rows of the lanes, counted from the record's reference pixel.
     pub(crate) place: [f32x8<S>; 2],

@@ -41,6 +41,8 @@ pub(crate) struct SetUp<'a> {
     pub(crate) gradients: &'a [DVec3],
     /// What cuts the cells at some places of the order, by ascending place.
     pub(crate) pieces: &'a [Piece],
+    /// For every cell whether it lies in a ring whose pixels are to be sorted; empty if there are none.
+    pub(crate) in_ring: &'a [bool],
 }
 
 /// Fans have no place on the screen for what lies behind the eye: cells are cut at this share of their farthest depth.
@@ -55,6 +57,7 @@ impl SetUp<'_> {
         records.careful.clear();
         records.fans.clear();
         records.effects.clear();
+        records.rings.clear();
         records.gradients.clear();
         records.flat_gradients.clear();
         dispatch!(self.renderer.level, _simd => self.fill_here(place, cells, records));
@@ -83,7 +86,7 @@ impl SetUp<'_> {
                     pieces: self.optics.pieces_of(cell),
                 });
             }
-            for ((cell, vertices), place) in batch.iter().zip(&vertices).zip(&mut places) {
+            for (((cell, vertices), id), place) in batch.iter().zip(&vertices).zip(cells).zip(&mut places) {
                 let before = records.cells.len();
                 if let Some(piece) = pieces.next_if(|piece| piece.place as usize == place) {
                     self.add_piece(cell, &piece.planes, records);
@@ -94,6 +97,9 @@ impl SetUp<'_> {
                 }
                 if let Some(effects) = self.effects {
                     self.add_effects(effects, cell, vertices, before, records);
+                }
+                if self.in_ring.get(id.index()) == Some(&true) {
+                    records.rings.extend(before as u32..records.cells.len() as u32);
                 }
             }
         }
@@ -258,7 +264,7 @@ impl SetUp<'_> {
             entry_count: entry as u32,
             careful: 0,
             effects: NO_EFFECTS,
-            depth: depth as f32,
+            depth: (depth - self.space.start) as f32,
         })
     }
 

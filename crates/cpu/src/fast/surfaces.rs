@@ -25,7 +25,7 @@ use crate::geometry::PixelSpace;
 #[derive(Clone, Copy, Debug)]
 #[repr(C, align(32))]
 pub(crate) struct Joint {
-    /// Depth in pixel space.
+    /// Depth in pixel space, from [`PixelSpace::start`].
     depth: [f32; LANES],
     /// How far it may be off.
     slack: [f32; LANES],
@@ -36,6 +36,14 @@ pub(crate) struct Joint {
 impl Joint {
     /// No cell yet: at no depth.
     pub(crate) const NONE: Self = Self { depth: [f32::NEG_INFINITY; LANES], slack: [0.0; LANES], rank: [0.0; LANES] };
+
+    /// A joint where rays enter a cell, at ranks that are known.
+    #[inline(always)]
+    pub(crate) fn told<S: Simd>(sample: &Sample<S>, rank: [f32; LANES]) -> Self {
+        let mut joint = Self { rank, ..Self::NONE };
+        sample.depth[0].store_slice(&mut joint.depth);
+        joint
+    }
 
     /// The rank at the front: that of the exit before where the two are one place, else the cell's own. Remembers the exit.
     #[inline(always)]
@@ -85,6 +93,8 @@ pub(crate) struct Rays<S: Simd> {
     /// Towards the eye, in the camera's axes, of length 1.
     to_eye: [f32x8<S>; 3],
     is_perspective: bool,
+    /// Depth that depths count from.
+    start: f32,
 }
 
 /// The volume of a segment by the plan's integration.
@@ -105,7 +115,7 @@ impl CellWithEffects<'_> {
         } else {
             [one * 0.0, one * 0.0, -one]
         };
-        Rays { across, to_eye, is_perspective: space.is_perspective }
+        Rays { across, to_eye, is_perspective: space.is_perspective, start: space.start as f32 }
     }
 
     /// What the light makes of a surface, or of the volume, with the field's gradient at a depth as normal: the share of the color
@@ -149,9 +159,18 @@ impl CellWithEffects<'_> {
         lit(shade(simd, cell, sample), self.intensities_of_volume(simd, rays, sample))
     }
 
-    /// Ranks of both ends among the cell's surfaces.
+    /// Whether rays may cross surfaces here.
     #[inline(always)]
-    fn ranks<S: Simd>(&self, simd: S, sample: &Sample<S>, joint: &mut Joint) -> [f32x8<S>; 2] {
+    pub(crate) fn has_surfaces(&self) -> bool {
+        self.range.count > 0
+    }
+
+    /// Ranks of both ends among all surfaces by the scalars there; with maps, their texels. For a cell with surfaces.
+    #[inline(always)]
+    pub(crate) fn own_ranks<S: Simd>(&self, simd: S, sample: &Sample<S>) -> [f32x8<S>; 2] {
+        if let Some(maps) = self.maps {
+            return maps.texels(simd, self.record, sample);
+        }
         let (zero, one) = (f32x8::splat(simd, 0.0), f32x8::splat(simd, 1.0));
         let (mut front, mut back) = (zero, zero);
         for surface in self.surfaces {
@@ -159,10 +178,21 @@ impl CellWithEffects<'_> {
             front += sample.front.simd_ge(value).select(one, zero);
             back += sample.back.simd_ge(value).select(one, zero);
         }
-        // Among all surfaces, and back.
         let first = self.range.first as f32;
-        let front = joint.carry(simd, sample, self.slack, [front + first, back + first]) - first;
-        [front.max(0.0).min(self.range.count as f32), back]
+        [front + first, back + first]
+    }
+
+    /// Ranks of both ends among the cell's surfaces.
+    #[inline(always)]
+    fn ranks<S: Simd>(&self, simd: S, sample: &Sample<S>, joint: &mut Joint) -> [f32x8<S>; 2] {
+        // Nothing is crossed here, and no scalar in reach of rounding to a surface is handed on.
+        if !self.has_surfaces() {
+            return [f32x8::splat(simd, 0.0); 2];
+        }
+        let own = self.own_ranks(simd, sample);
+        let first = self.range.first as f32;
+        let front = joint.carry(simd, sample, self.slack, own) - first;
+        [front.max(0.0).min(self.range.count as f32), own[1] - first]
     }
 
     /// The light of a block, and the number of crossings. Out of line, and one for all methods: it is large, and the method is
@@ -290,7 +320,12 @@ fn intensities<S: Simd>(
         #[inline(always)]
         || {
             let [u, w] = rays.across;
-            let place = if rays.is_perspective { [u * depth, w * depth, depth] } else { [u, w, depth] };
+            let place = if rays.is_perspective {
+                let from_eye = depth + rays.start;
+                [u * from_eye, w * from_eye, depth]
+            } else {
+                [u, w, depth]
+            };
             let gradient = gradient.at(simd, place);
             let to_light = lamp.direction.map_or(rays.to_eye, |direction| direction.map(|x| f32x8::splat(simd, x)));
             phong(simd, &lamp.phong, gradient, rays.to_eye, to_light)

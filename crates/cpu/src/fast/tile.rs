@@ -4,10 +4,11 @@ use fearless_simd::{Level, Simd, dispatch, f32x8, prelude::*};
 use tetrascope_integrate::{Integration, OpticalModel};
 use tetrascope_scene::Plan;
 
-use super::careful::careful_sample;
-use super::cell::{CarefulCell, CellPieces};
+use super::blocks::Blocks;
+use super::cell::CellPieces;
 use super::cover::{BlockRange, CoverList};
 use super::effects::{Effects, LocalSurface};
+use super::held::Held;
 use super::lookup::Lookup;
 use super::methods::{Average, CellOptics, Cumulative, Ends, Exact, Method, Partial, Tabulated, Vertex};
 use super::model::{Absorption, DensityEmitter, Emission, Emitter, Model};
@@ -15,6 +16,7 @@ use super::optics::Optics;
 use super::record::{CellRecord, NO_EFFECTS, Records};
 use super::sample::{BLOCK_HEIGHT, BLOCK_WIDTH, LANES, Light, Sample, lanes_from};
 use super::surfaces::{CellWithEffects, Joint};
+use super::survey::Sorting;
 use crate::geometry::PixelSpace;
 use crate::grid::{Bins, Tile, TileGrid};
 
@@ -35,15 +37,17 @@ pub(crate) struct Job<'a> {
     pub(crate) lookup: Option<&'a Lookup>,
     /// Isosurfaces and light, if there are any.
     pub(crate) effects: Option<&'a Effects>,
+    /// How pixels sort what they see, if they do.
+    pub(crate) sorting: Option<Sorting<'a>>,
     pub(crate) level: Level,
 }
 
 /// Color and transmittance of the eight pixels of a block, and how much longer their rays are than straight ahead.
 #[derive(Clone, Copy, Debug)]
 #[repr(C, align(32))]
-struct Block {
-    rgb: [[f32; LANES]; 3],
-    transmittance: [f32; LANES],
+pub(crate) struct Block {
+    pub(crate) rgb: [[f32; LANES]; 3],
+    pub(crate) transmittance: [f32; LANES],
     stretch: [f32; LANES],
 }
 
@@ -62,6 +66,8 @@ struct Canvas<'a> {
     tile: Tile,
     pixels: &'a mut Pixels,
     covers: CoverList,
+    /// Segments that are held back, where any are.
+    held: Option<Box<Held>>,
     done: Done,
 }
 
@@ -72,6 +78,10 @@ pub(crate) struct Done {
     pub(crate) fragments: u64,
     /// Surfaces met by rays.
     pub(crate) crossings: u64,
+    /// Of the fragments, those that their pixel sorted.
+    pub(crate) sorted: u64,
+    /// Most fragments held back at one time.
+    pub(crate) most_held: u64,
 }
 
 impl Pixels {
@@ -101,7 +111,7 @@ impl Pixels {
 
     /// The blocks that a cell may cover; its outline touches the tile.
     #[inline(always)]
-    fn range(&self, tile: Tile, record: &CellRecord) -> BlockRange {
+    pub(crate) fn range(&self, tile: Tile, record: &CellRecord) -> BlockRange {
         let [x0, x1, y0, y1] = record.pixel_box();
         let column = (x0.max(tile.x) - tile.x) / BLOCK_WIDTH;
         let row = (y0.max(tile.y) - tile.y) / BLOCK_HEIGHT;
@@ -114,6 +124,11 @@ impl Pixels {
             rows: last_row - row + 1,
             stride: self.columns,
         }
+    }
+
+    /// Number of blocks.
+    pub(crate) fn len(&self) -> usize {
+        self.blocks.len()
     }
 
     /// Writes one row of the tile's pixels, as many as `line` has.
@@ -165,7 +180,9 @@ impl Job<'_> {
     fn draw_tile<S: Simd, I: Method, M: Model>(&self, simd: S, index: usize, pixels: &mut Pixels) -> Done {
         let tile = self.grid.tile(index);
         pixels.reset(simd, tile, self.space, self.effects.is_some());
-        let mut canvas = Canvas { tile, pixels, covers: CoverList::new(), done: Done::default() };
+        let mut covers = CoverList::new();
+        let held = self.sorting.as_ref().and_then(|sorting| self.survey(simd, sorting, index, pixels, &mut covers));
+        let mut canvas = Canvas { tile, pixels, covers, held, done: Done::default() };
         let (mut pieces, mut surfaces) = (Vec::new(), Vec::new());
         let mut batch = Vec::with_capacity(BATCH);
         for (records, bins) in self.records.iter().zip(self.bins) {
@@ -181,15 +198,23 @@ impl Job<'_> {
                     let cell = CellOptics { pieces: &pieces, fan, table };
                     let with_effects = self.effects_of(records, record, &mut surfaces);
                     self.draw_cell::<S, I, M>(simd, records, record, cell, with_effects.as_ref(), &mut canvas);
+                    if let Some(held) = canvas.held.as_deref_mut().filter(|held| held.is_full()) {
+                        held.blend(simd, self.plan.termination, &mut canvas.pixels.blocks, false);
+                    }
                 }
             }
+        }
+        if let (Some(sorting), Some(mut held)) = (&self.sorting, canvas.held) {
+            held.blend(simd, self.plan.termination, &mut canvas.pixels.blocks, true);
+            (canvas.done.sorted, canvas.done.most_held) = (held.sorted, held.most);
+            sorting.give_back(held);
         }
         canvas.done
     }
 
     /// What a cell has besides its volume, if anything.
     #[inline(always)]
-    fn effects_of<'a>(
+    pub(crate) fn effects_of<'a>(
         &'a self,
         records: &'a Records,
         record: &'a CellRecord,
@@ -230,50 +255,16 @@ impl Job<'_> {
         with_effects: Option<&CellWithEffects<'_>>,
         canvas: &mut Canvas<'_>,
     ) {
-        let Canvas { tile, pixels, covers, done } = canvas;
+        let Canvas { tile, pixels, covers, held, done } = canvas;
         let range = pixels.range(*tile, record);
         let brush = Brush { cell, with_effects, termination: self.plan.termination };
         // One place of the code that shades: it is large, and compiled for every method.
-        let careful = (record.entry_count == 0).then(|| &records.careful[record.careful as usize]);
-        let count = if careful.is_some() {
-            (range.rows * range.columns) as usize
-        } else {
-            covers.find(simd, record, range);
-            covers.len()
-        };
-        for index in 0..count {
-            let (block, sample) = if let Some(careful) = careful {
-                match sample_carefully(simd, careful, record, self.space, range, index as u32) {
-                    Some(found) => found,
-                    None => continue,
-                }
-            } else {
-                covers.get(simd, index, record, self.space.is_perspective)
-            };
-            brush.blend::<S, I, M>(simd, sample, block, pixels, done);
+        let blocks = Blocks::find(simd, records, record, range, self.space, covers);
+        for index in 0..blocks.len() {
+            let Some((block, sample)) = blocks.get(simd, covers, index) else { continue };
+            brush.blend::<S, I, M>(simd, sample, block, pixels, held.as_deref_mut(), done);
         }
     }
-}
-
-/// The number and the sample of a cell's block that is drawn in f64, out of line: few are.
-#[inline(never)]
-fn sample_carefully<S: Simd>(
-    simd: S,
-    cell: &CarefulCell,
-    record: &CellRecord,
-    space: &PixelSpace,
-    range: BlockRange,
-    index: u32,
-) -> Option<(usize, Sample<S>)> {
-    simd.vectorize(
-        #[inline(always)]
-        || {
-            let (column, row) = (index % range.columns, index / range.columns);
-            let place = [range.pixel[0] + column * BLOCK_WIDTH, range.pixel[1] + row * BLOCK_HEIGHT];
-            let sample = careful_sample(simd, cell, record, space, place)?;
-            Some(((range.first + row * range.stride + column) as usize, sample))
-        },
-    )
 }
 
 /// A method's shading out of line, for what is drawn with effects.
@@ -293,7 +284,7 @@ struct Brush<'a> {
 }
 
 impl Brush<'_> {
-    /// Puts the cell's light behind what a block has, unless the block is opaque.
+    /// Puts the cell's light behind what a block has, or into what it holds back, unless the block is opaque.
     #[inline(always)]
     fn blend<S: Simd, I: Method, M: Model>(
         &self,
@@ -301,8 +292,15 @@ impl Brush<'_> {
         mut sample: Sample<S>,
         number: usize,
         pixels: &mut Pixels,
+        held: Option<&mut Held>,
         done: &mut Done,
     ) {
+        let mut held = held.filter(|held| held.takes(number));
+        // Also for an opaque block: each was listed.
+        let mut told = match (&mut held, self.with_effects) {
+            (Some(held), Some(cell)) if cell.has_surfaces() => held.sides.next(number, &sample),
+            _ => None,
+        };
         let block = &mut pixels.blocks[number];
         let before = f32x8::from_slice(simd, &block.transmittance);
         // What lies behind an opaque block is not seen.
@@ -315,13 +313,19 @@ impl Brush<'_> {
         done.fragments += u64::from(sample.covered.to_bitmask().count_ones());
         let Some(with_effects) = self.with_effects else {
             let light = I::shade::<S, M>(simd, self.cell, &sample);
-            block.add(simd, before, light, M::EMITS, M::ABSORBS);
+            match held {
+                Some(held) => held.push(simd, number, &sample, &light),
+                None => block.add(simd, before, light, M::EMITS, M::ABSORBS),
+            }
             return;
         };
-        let joint = &mut pixels.joints[number];
+        let joint = told.as_mut().unwrap_or(&mut pixels.joints[number]);
         let (light, crossings) = with_effects.shade(simd, self.cell, &sample, joint, shade::<S, I, M>);
         done.crossings += crossings;
-        block.add(simd, before, light, true, true);
+        match held {
+            Some(held) => held.push(simd, number, &sample, &light),
+            None => block.add(simd, before, light, true, true),
+        }
     }
 }
 
