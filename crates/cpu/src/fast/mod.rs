@@ -36,7 +36,7 @@ use rayon::prelude::*;
 
 use tetrascope_integrate::{Integration, Isosurfaces};
 use tetrascope_mesh::{CellId, ChordLengths, Frame, TetMesh, VertexId, point_gradients, segment_lengths};
-use tetrascope_order::{Cells, MeshVisibility, OrderMethod, VisibilityOrder};
+use tetrascope_order::{Cells, Guarantee, MeshVisibility, OrderMethod, PixelSort, VisibilityOrder};
 use tetrascope_scene::{Gradients, Plan, Progress, Stage};
 use tetrascope_view::LinearImage;
 
@@ -44,7 +44,7 @@ use crate::error::{check_methods, check_scalars, on_threads};
 use crate::geometry::{PixelSpace, Points, ascending};
 use crate::grid::{Bins, TileGrid};
 use crate::rendered::Stopwatch;
-use crate::{Counts, RenderError, Rendered};
+use crate::{Counts, OrderReport, RenderError, Rendered};
 use cell::{NOWHERE, Outline};
 use effects::Effects;
 use lookup::Lookup;
@@ -152,6 +152,14 @@ impl CpuRenderer {
             gradients: OnceLock::new(),
             scratch: Mutex::new(None),
         })
+    }
+
+    /// The same with heights of the points that were found before, see [`MeshVisibility::with_heights`].
+    ///
+    /// # Errors
+    /// Those of [`Self::new`].
+    pub fn with_heights(mesh: &TetMesh, scalars: &[f64], heights: Vec<f64>) -> Result<Self, RenderError> {
+        Ok(Self { visibility: MeshVisibility::with_heights(heights), ..Self::new(mesh, scalars)? })
     }
 
     /// Draws a picture as the plan says; the plan's back end is ignored.
@@ -279,7 +287,12 @@ impl CpuRenderer {
             cyclic: order.cycles.iter().map(|ring| ring.len() as u64).sum(),
         };
         *self.scratch.lock().unwrap_or_else(PoisonError::into_inner) = Some(scratch);
-        Ok(Rendered { image, timings: watch.finish(), counts })
+        let guarantee = match plan.order.pixel_sort() {
+            PixelSort::All => Guarantee::Exact,
+            PixelSort::None | PixelSort::Window(_) => order.guarantee,
+        };
+        let order = OrderReport { guarantee, rings: order.cycles.len() as u64 };
+        Ok(Rendered { image, timings: watch.finish(), counts, order })
     }
 
     /// A visibility order, made ready for the mesh when first asked for.
