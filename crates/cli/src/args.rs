@@ -4,7 +4,8 @@ use std::path::PathBuf;
 
 use clap::{Args, Parser, Subcommand};
 use tetrascope::{
-    Backend, Choice, Integration, IsosurfaceSection, LengthAxisName, OpticalModel, OrderMethod, Shading, TableSettings,
+    Backend, Choice, CycleRemedy, Integration, IsosurfaceSection, LengthAxisName, OpticalModel, OrderMethod, Shading,
+    TableSettings,
 };
 
 /// Draws unstructured meshes as volumes.
@@ -27,6 +28,7 @@ const TOP_EXAMPLES: &str = "\
 Examples:
   tetrascope                               draw the built-in sample
   tetrascope info case.vtu                 what is in a file
+  tetrascope check case.vtu                which visibility orders are right for it
   tetrascope render case.vtu               draw it, with defaults that fit any scale
   tetrascope render scene.toml -o a.png    draw what a scene file says
 
@@ -38,6 +40,8 @@ pub(crate) enum Command {
     Render(Box<RenderArgs>),
     /// Say what is in a mesh file and what is wrong with it.
     Info(InfoArgs),
+    /// Say which visibility orders are right for a mesh, and where and by how much the others are wrong.
+    Check(Box<CheckArgs>),
 }
 
 const RENDER_EXAMPLES: &str = "\
@@ -56,20 +60,9 @@ Isosurfaces stand in the volume; --extinction \"0:0\" leaves them alone in the p
 
 Exit codes: 0 good, 1 wrong input, 2 wrong usage. Pictures are written whole or not at all.";
 
-#[derive(Debug, Args)]
-#[command(after_help = RENDER_EXAMPLES)]
-pub(crate) struct RenderArgs {
-    /// A scene file (.toml, .json), a mesh file, or a PLOT3D grid and its solution; builtin:rings is a sample
-    #[arg(required = true, num_args = 1..=2, value_name = "INPUT")]
-    pub(crate) input: Vec<PathBuf>,
-    /// Picture to write: .png (8-bit sRGB over the background) or .exr (32-bit linear, premultiplied); may be repeated
-    /// [default: tetrascope.png]
-    #[arg(short, long = "output", value_name = "IMAGE")]
-    pub(crate) output: Vec<PathBuf>,
-    /// Array to show: a name, or NAME:0, NAME:x, NAME:mag of a vector [default: the first scalar point array]
-    #[arg(long, value_name = "NAME")]
-    pub(crate) field: Option<String>,
-
+/// From where a mesh is seen.
+#[derive(Debug, Default, Args)]
+pub(crate) struct CameraArgs {
     /// Where the eye is, world coordinates [default: looks along -z and sees everything]
     #[arg(long, value_name = "X,Y,Z", value_parser = vector, allow_hyphen_values = true, help_heading = "Camera")]
     pub(crate) eye: Option<[f64; 3]>,
@@ -85,6 +78,78 @@ pub(crate) struct RenderArgs {
     /// Parallel rays, with this full height of the view in world units
     #[arg(long, value_name = "HEIGHT", conflicts_with = "fov", help_heading = "Camera")]
     pub(crate) orthographic: Option<f64>,
+}
+
+const CHECK_EXAMPLES: &str = "\
+Examples:
+  tetrascope check case.vtu
+  tetrascope check case.vtu --view 3,-4,2 --view 0,0,9 --order mpvo --order centroid
+  tetrascope check case.toml --heights --json
+  tetrascope check case.vtu --map wrong.png        one picture an order: wrong-mpvo.png, ...
+
+Pairs of tetrahedra are judged across the faces between them and across gaps of the mesh, without rounding; pixels by the picture
+in which every pixel sorts what its ray meets. Exit codes: 0 good, 1 wrong input, 2 wrong usage; an order that is wrong is no error.";
+
+#[derive(Debug, Args)]
+#[command(after_help = CHECK_EXAMPLES)]
+pub(crate) struct CheckArgs {
+    /// A scene file (.toml, .json), a mesh file, or a PLOT3D grid and its solution; builtin:rings is a sample
+    #[arg(required = true, num_args = 1..=2, value_name = "INPUT")]
+    pub(crate) input: Vec<PathBuf>,
+    /// Array to show: a name, or NAME:0, NAME:x, NAME:mag of a vector [default: the first scalar point array]
+    #[arg(long, value_name = "NAME")]
+    pub(crate) field: Option<String>,
+    /// An order to judge; may be repeated [default: all but those by pixels, and power where no heights are known]
+    #[arg(long, value_name = "NAME")]
+    pub(crate) order: Vec<OrderMethod>,
+    /// Look for the heights of --order power where the mesh is not Delaunay
+    #[arg(long)]
+    pub(crate) heights: bool,
+
+    /// Seen from here towards the middle of the mesh, world coordinates; may be repeated, inside of the mesh too
+    /// [default: the camera]
+    #[arg(
+        long,
+        value_name = "X,Y,Z",
+        value_parser = vector,
+        allow_hyphen_values = true,
+        conflicts_with_all = ["eye", "target", "orthographic"],
+        help_heading = "Camera"
+    )]
+    pub(crate) view: Vec<[f64; 3]>,
+    #[command(flatten)]
+    pub(crate) camera: CameraArgs,
+
+    /// Pixels: one side of a square, or WIDTHxHEIGHT [default: 512]
+    #[arg(long, value_name = "SIZE", value_parser = size, help_heading = "Picture")]
+    pub(crate) size: Option<(u32, u32)>,
+    /// Picture (.png) of where pixels are wrong, black to white by the logarithm; with an order's name for each of several
+    #[arg(long, value_name = "IMAGE", help_heading = "Report")]
+    pub(crate) map: Option<PathBuf>,
+    /// Number of threads [default: one a core]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..), help_heading = "Method")]
+    pub(crate) threads: Option<u16>,
+    /// Report on standard output as one JSON object
+    #[arg(long, help_heading = "Report")]
+    pub(crate) json: bool,
+}
+
+#[derive(Debug, Args)]
+#[command(after_help = RENDER_EXAMPLES)]
+pub(crate) struct RenderArgs {
+    /// A scene file (.toml, .json), a mesh file, or a PLOT3D grid and its solution; builtin:rings is a sample
+    #[arg(required = true, num_args = 1..=2, value_name = "INPUT")]
+    pub(crate) input: Vec<PathBuf>,
+    /// Picture to write: .png (8-bit sRGB over the background) or .exr (32-bit linear, premultiplied); may be repeated
+    /// [default: tetrascope.png]
+    #[arg(short, long = "output", value_name = "IMAGE")]
+    pub(crate) output: Vec<PathBuf>,
+    /// Array to show: a name, or NAME:0, NAME:x, NAME:mag of a vector [default: the first scalar point array]
+    #[arg(long, value_name = "NAME")]
+    pub(crate) field: Option<String>,
+
+    #[command(flatten)]
+    pub(crate) camera: CameraArgs,
 
     /// Pixels: one side of a square, or WIDTHxHEIGHT [default: 512]
     #[arg(long, value_name = "SIZE", value_parser = size, help_heading = "Picture")]
@@ -125,10 +190,20 @@ pub(crate) struct RenderArgs {
     /// Spacing of the lengths in the table of table-3d: linear, logarithmic [default: linear]
     #[arg(long, value_name = "NAME", value_parser = length_axis, help_heading = "Method")]
     pub(crate) length_axis: Option<LengthAxisName>,
-    /// auto, or in which order cells are blended: mpvo, centroid, bucket, none
+    /// auto, or in which order cells are blended: power, mpvo, bsp-xmpvo, per-pixel, k-buffer, centroid, bucket, none
     #[arg(long, value_name = "NAME", help_heading = "Method")]
     pub(crate) order: Option<Choice<OrderMethod>>,
-    /// Number of slabs for --order bucket
+    /// What is done about cells that hide one another in rings, for --order mpvo and bsp-xmpvo: per-pixel, cut, report
+    /// [default: per-pixel]
+    #[arg(long, value_name = "NAME", help_heading = "Method")]
+    pub(crate) cycles: Option<CycleRemedy>,
+    /// Cells that a pixel holds back for --order k-buffer [default: 6]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..), help_heading = "Method")]
+    pub(crate) window: Option<u32>,
+    /// Keep what --order power finds in a file beside the mesh (MESH.heights) and read it from there
+    #[arg(long, help_heading = "Method")]
+    pub(crate) keep_heights: bool,
+    /// Number of slabs for --order bucket [default: 20]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..), help_heading = "Method")]
     pub(crate) slabs: Option<u32>,
     /// The largest error wanted in a channel, 0 to 1; it changes nothing yet, as auto takes the exact integration
@@ -304,7 +379,7 @@ mod tests {
         let negative = ["--eye", "-1,-2,3", "--extinction", "-1:0;1:2", "--isosurface", "-1:1,1,1"];
         let cli = Cli::try_parse_from([&["tetrascope", "render", "a.vtu"], &negative[..]].concat());
         let Some(Command::Render(args)) = cli.unwrap().command else { panic!("not render") };
-        assert_eq!(args.eye, Some([-1.0, -2.0, 3.0]));
+        assert_eq!(args.camera.eye, Some([-1.0, -2.0, 3.0]));
         assert_eq!(args.extinction, Some(Points(vec![[-1.0, 0.0], [1.0, 2.0]])));
         assert_eq!(args.isosurface[0].value, -1.0);
     }

@@ -4,6 +4,7 @@
 //! 2 wrong usage.
 
 mod args;
+mod check;
 mod info;
 mod progress;
 mod render;
@@ -39,6 +40,7 @@ fn main() -> ExitCode {
         None => sample::run(),
         Some(Command::Render(args)) => render::run(args),
         Some(Command::Info(args)) => info::run(args),
+        Some(Command::Check(args)) => check::run(args),
     };
     match done {
         Ok(()) => ExitCode::SUCCESS,

@@ -4,12 +4,12 @@ use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
 use tetrascope::{
-    Completed, IsosurfaceSection, Plan, ProjectionName, Rendered, SceneFile, Volume, VolumeField, explain_blank,
-    is_blank, resolve_path, warn_of_non_finite, write_image,
+    CameraSection, Completed, IsosurfaceSection, Plan, ProjectionName, Rendered, SceneFile, Volume, VolumeField,
+    explain_blank, is_blank, resolve_path, warn_of_non_finite, write_image,
 };
 
 use crate::Failure;
-use crate::args::RenderArgs;
+use crate::args::{CameraArgs, RenderArgs};
 use crate::progress::Bar;
 use crate::report::Report;
 use crate::scene_paths::{self, folder_of, is_scene};
@@ -79,12 +79,16 @@ impl Job<'_> {
         let field = volume.field(mesh.field.as_deref())?;
         report.field(&field, start.elapsed());
 
+        bar.step("choosing methods");
+        let start = Instant::now();
         let (completed, plan) = self.decide(&field)?;
+        bar.clear();
+        report.chose_in(start.elapsed());
         report.plan(&completed, &plan, self.threads);
 
         let rendered = field.render(&plan, bar)?;
         bar.clear();
-        report.rendered(&rendered);
+        report.rendered(&rendered, &field.order_worth(&plan, &rendered)?);
         if let Some(warning) = warn_of_non_finite(&rendered.image) {
             report.warn(&warning);
         } else if is_blank(&rendered.image) {
@@ -96,15 +100,11 @@ impl Job<'_> {
     }
 
     fn decide(&self, field: &VolumeField<'_>) -> Result<(Completed, Plan), Failure> {
-        let wrong = |error: tetrascope::SceneError| match self.scene_path {
-            Some(path) => Failure::Input(format!("{}: {error}", path.display())),
-            None => tetrascope::Error::Scene(error).into(),
-        };
-        let mut completed = self.scene.complete(&field.facts).map_err(wrong)?;
+        let wrong = |error: tetrascope::Error| wrong_scene(self.scene_path, error);
+        let mut completed = self.scene.complete(&field.facts).map_err(|error| wrong(error.into()))?;
         completed.file.mesh.field = Some(field.field.name.clone());
         completed.scene.threads = self.threads;
-        let mut plan = completed.scene.plan().map_err(wrong)?;
-        plan.decisions.clone_from(&completed.decisions);
+        let plan = field.plan(&mut completed).map_err(wrong)?;
         Ok((completed, plan))
     }
 
@@ -128,8 +128,16 @@ impl Job<'_> {
     }
 }
 
+/// What is wrong with a scene, under the name of its file if it has one.
+pub(crate) fn wrong_scene(scene_path: Option<&Path>, error: tetrascope::Error) -> Failure {
+    match (scene_path, error) {
+        (Some(path), tetrascope::Error::Scene(error)) => Failure::Input(format!("{}: {error}", path.display())),
+        (_, error) => error.into(),
+    }
+}
+
 /// A scene file with its folder, or a scene of nothing but a mesh.
-fn scene_of_inputs(inputs: &[PathBuf]) -> Result<(SceneFile, PathBuf), Failure> {
+pub(crate) fn scene_of_inputs(inputs: &[PathBuf]) -> Result<(SceneFile, PathBuf), Failure> {
     match inputs {
         [scene] if is_scene(scene) => Ok((scene_paths::read(scene)?, folder_of(scene).to_owned())),
         [mesh] => Ok((SceneFile::of_mesh(mesh), PathBuf::from("."))),
@@ -145,19 +153,13 @@ fn scene_of_inputs(inputs: &[PathBuf]) -> Result<(SceneFile, PathBuf), Failure> 
     }
 }
 
-fn override_by_options(scene: &mut SceneFile, args: &RenderArgs) {
-    fn set<T: Clone>(slot: &mut T, value: Option<&T>) {
-        if let Some(value) = value {
-            slot.clone_from(value);
-        }
+fn set_some<T: Clone>(slot: &mut Option<T>, value: Option<&T>) {
+    if value.is_some() {
+        *slot = value.cloned();
     }
-    fn set_some<T: Clone>(slot: &mut Option<T>, value: Option<&T>) {
-        if value.is_some() {
-            *slot = value.cloned();
-        }
-    }
-    set_some(&mut scene.mesh.field, args.field.as_ref());
-    let camera = &mut scene.camera;
+}
+
+pub(crate) fn override_camera(camera: &mut CameraSection, args: &CameraArgs) {
     set_some(&mut camera.eye, args.eye.as_ref());
     set_some(&mut camera.target, args.target.as_ref());
     set_some(&mut camera.up, args.up.as_ref());
@@ -167,6 +169,16 @@ fn override_by_options(scene: &mut SceneFile, args: &RenderArgs) {
     if args.orthographic.is_some() {
         (camera.projection, camera.fov_y, camera.height) = (ProjectionName::Orthographic, None, args.orthographic);
     }
+}
+
+fn override_by_options(scene: &mut SceneFile, args: &RenderArgs) {
+    fn set<T: Clone>(slot: &mut T, value: Option<&T>) {
+        if let Some(value) = value {
+            slot.clone_from(value);
+        }
+    }
+    set_some(&mut scene.mesh.field, args.field.as_ref());
+    override_camera(&mut scene.camera, &args.camera);
     if let Some((width, height)) = args.size {
         (scene.image.width, scene.image.height) = (width, height);
     }
@@ -187,18 +199,23 @@ fn override_by_options(scene: &mut SceneFile, args: &RenderArgs) {
         (quality.table_size, quality.table_lengths) = (args.table_size, None);
     }
     set_some(&mut quality.length_axis, args.length_axis.as_ref());
-    if args.order.is_some() && args.slabs.is_none() {
-        // The slabs of the scene file belong to the order that is replaced.
-        quality.slabs = None;
+    if args.order.is_some_and(|asked| asked != quality.order) {
+        // What the scene file says belongs to the order that is replaced.
+        (quality.slabs, quality.window, quality.cycles, quality.keep_heights) = (None, None, None, None);
     }
     set(&mut quality.order, args.order.as_ref());
     set_some(&mut quality.slabs, args.slabs.as_ref());
+    set_some(&mut quality.window, args.window.as_ref());
+    set_some(&mut quality.cycles, args.cycles.as_ref());
+    if args.keep_heights {
+        quality.keep_heights = Some(true);
+    }
     set_some(&mut quality.max_error, args.max_error.as_ref());
     set(&mut quality.backend, args.backend.as_ref());
 }
 
 /// Refuses a target of the wrong kind or in a folder that is not there.
-fn check_target(path: &Path, extensions: &[&str], kind: &str) -> Result<(), Failure> {
+pub(crate) fn check_target(path: &Path, extensions: &[&str], kind: &str) -> Result<(), Failure> {
     let extension = path.extension().map(|e| e.to_string_lossy().to_lowercase()).unwrap_or_default();
     if !extensions.contains(&extension.as_str()) {
         let known = extensions.iter().map(|e| format!(".{e}")).collect::<Vec<_>>().join(" and ");

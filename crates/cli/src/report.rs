@@ -5,7 +5,8 @@ use std::time::Duration;
 
 use serde_json::{Map, Value, json};
 use tetrascope::{
-    Backend, Completed, Gradients, Integration, LengthAxis, Plan, Projection, Rendered, Volume, VolumeField, short,
+    Backend, Completed, Gradients, Integration, LengthAxis, OrderWorth, Plan, Projection, Rendered, Volume,
+    VolumeField, short,
 };
 
 /// Collects what was done; people read it line by line as it happens, machines at the end.
@@ -116,6 +117,7 @@ impl Report {
             Backend::Cpu => plan.order.to_string(),
         };
         self.put("order", json!(order));
+        self.put("cycles", json!(completed.file.quality.cycles.map(|remedy| remedy.to_string())));
         self.put("model", json!(plan.model.to_string()));
         self.put("backend", json!(plan.backend.to_string()));
         self.put("threads", json!(used));
@@ -131,7 +133,11 @@ impl Report {
         }
     }
 
-    pub(crate) fn rendered(&mut self, rendered: &Rendered) {
+    pub(crate) fn chose_in(&mut self, time: Duration) {
+        self.timings.push(("choose".to_owned(), time));
+    }
+
+    pub(crate) fn rendered(&mut self, rendered: &Rendered, worth: &OrderWorth) {
         let counts = &rendered.counts;
         self.say(
             "drawn",
@@ -140,14 +146,16 @@ impl Report {
                 counts.drawn, counts.cells, counts.transparent, counts.outside, counts.fragments
             ),
         );
-        if counts.cyclic > 0 {
-            self.say(
-                "cycles",
-                &format!(
-                    "{} tetrahedra hide one another in rings, where no order of whole cells is right; the back end reference draws them",
-                    counts.cyclic
-                ),
-            );
+        self.say("guarantee", &worth.summary);
+        if let Some(rings) = &worth.rings {
+            self.say("rings", rings);
+        }
+        self.put(
+            "order_worth",
+            json!({ "summary": worth.summary, "rings": rendered.order.rings, "cyclic": counts.cyclic }),
+        );
+        for text in &worth.warnings {
+            self.warn(text);
         }
         if counts.crossings > 0 {
             self.say("crossings", &format!("{} of rays with isosurfaces", counts.crossings));

@@ -90,7 +90,14 @@ fn a_mesh_becomes_a_picture_and_the_choices_are_said() {
     let out = run.good(&["render", "mesh.vtu", "--size", "40x30", "-o", "a.png", "-o", "a.exr"]);
     has(
         &out,
-        &["2 tetrahedra", "field       s, 0 to 4", "first scalar point array", "looks along -z", "exact", "mpvo"],
+        &[
+            "2 tetrahedra",
+            "field       s, 0 to 4",
+            "first scalar point array",
+            "looks along -z",
+            "exact",
+            "power: one key",
+        ],
     );
     has(
         &out,
@@ -177,7 +184,9 @@ fn wrong_usage_is_two() {
     has(&run.bad(2, &["render", "mesh.vtu", "--isosurface", "1", "--shading", "phong"]), &["none, flat and smooth"]);
     has(&run.bad(2, &["render", "mesh.vtu", "--table-size", "1"]), &["2..=1024"]);
     has(&run.bad(2, &["render", "mesh.vtu", "--length-axis", "cubic"]), &["linear and logarithmic"]);
-    has(&run.bad(2, &["render", "mesh.vtu", "--order", "power"]), &["not in this version"]);
+    has(&run.bad(2, &["render", "mesh.vtu", "--order", "depth"]), &["bsp-xmpvo", "k-buffer"]);
+    has(&run.bad(2, &["render", "mesh.vtu", "--cycles", "ignore"]), &["report, cut or per-pixel"]);
+    has(&run.bad(2, &["render", "mesh.vtu", "--order", "k-buffer", "--window", "0"]), &["0"]);
     has(&run.bad(2, &["render", "mesh.vtu", "--backend", "gpu"]), &["cpu and reference"]);
     has(&run.bad(2, &["render", "mesh.vtu", "--fov", "30", "--orthographic", "2"]), &["cannot be used with"]);
     has(&run.bad(2, &["render", "mesh.vtu", "--threads", "0"]), &["0"]);
@@ -204,6 +213,8 @@ fn a_written_scene_gives_the_same_bytes() {
         &["--field", "v", "--orthographic", "2.5", "--model", "emitter"],
         &["--isosurface", "1.5", "--isosurface", "2.5:1,0.5,0,0.5", "--shading", "smooth"],
         &["--eye", "0.3,-4,2", "--up", "0,0,1", "--color", "0:0,0.5,1; 4:1,1,0", "--order", "bucket", "--slabs", "7"],
+        &["--order", "k-buffer", "--window", "3"],
+        &["--order", "mpvo", "--cycles", "report"],
         &["--field", "flat", "--integration", "average", "--backend", "reference", "--background", "0.1,0.2,0.3"],
     ]
     .into_iter()
@@ -291,6 +302,36 @@ fn keys_without_an_effect_are_said() {
     assert_eq!(output.status.code(), Some(0), "{text}");
     has(&text, &["quality.table_size has no effect: the integration exact", "[light] has no effect: nothing is lit"]);
     assert!(!text.contains("table_lengths"), "{text}");
+}
+
+#[test]
+fn orders_are_chosen_and_their_worth_is_said() {
+    let run = Run::new();
+    run.write("a.toml", "[mesh]\npath = \"mesh.vtu\"\n[quality]\norder = \"k-buffer\"\nwindow = 3\n");
+    for (options, said) in [
+        (&[][..], &["order       power: one key", "guarantee   proven for all 1 faces"][..]),
+        (
+            &["--order", "auto", "--model", "emission"],
+            &["order       none", "guarantee   nothing depends on the order"],
+        ),
+        (&["--order", "mpvo"], &["order       mpvo: asked for", "cycles      per-pixel", "guarantee   exact"]),
+        (&["--order", "centroid"], &["guarantee   not guaranteed: by one point of a cell"]),
+        (&["--order", "k-buffer"], &["k-buffer, 6 cells a pixel", "within 6 cells"]),
+        (&["--order", "per-pixel"], &["guarantee   exact: sorted in every pixel"]),
+        (&["--backend", "reference"], &["order       per pixel", "exact: sorted along every ray"]),
+    ] {
+        let out = run.good(&[&["render", "mesh.vtu", "--size", "8"], options].concat());
+        has(&out, said);
+    }
+    has(&run.good(&["render", "a.toml", "--size", "8"]), &["k-buffer, 3 cells a pixel"]);
+    // With the order goes what the scene says about it, without a word.
+    let output = run.tetrascope(&["render", "a.toml", "--size", "8", "--order", "mpvo", "--write-scene", "b.toml"]);
+    assert_eq!(stderr(&output), "");
+    let written = std::fs::read_to_string(run.path("b.toml")).unwrap();
+    has(&written, &["order = \"mpvo\"", "cycles = \"per-pixel\""]);
+    assert!(!written.contains("window"), "{written}");
+    let text = stderr(&run.tetrascope(&["render", "mesh.vtu", "--size", "8", "--window", "3"]));
+    has(&text, &["quality.window has no effect: the order is auto, not k-buffer"]);
 }
 
 #[test]

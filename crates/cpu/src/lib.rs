@@ -60,4 +60,4 @@ mod reference_tests;
 
 pub use error::RenderError;
 pub use fast::CpuRenderer;
-pub use rendered::{Counts, Rendered};
+pub use rendered::{Counts, OrderReport, Rendered};

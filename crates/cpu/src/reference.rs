@@ -12,6 +12,7 @@ use rayon::prelude::*;
 use std::sync::atomic::{AtomicU64, Ordering};
 use tetrascope_integrate::{Integrator, TableDomain};
 use tetrascope_mesh::TetMesh;
+use tetrascope_order::Guarantee;
 use tetrascope_scene::{Gradients, Plan, Progress, Stage};
 use tetrascope_view::LinearImage;
 
@@ -20,7 +21,7 @@ use crate::error::{check_scalars, on_threads};
 use crate::geometry::{ClipCell, PixelBox, PixelSpace, Points, ascending, is_outside_rectangle};
 use crate::grid::{Bins, Tile, TileGrid};
 use crate::rendered::Stopwatch;
-use crate::{Counts, RenderError, Rendered};
+use crate::{Counts, OrderReport, RenderError, Rendered};
 use light::Light;
 use ray::{Fragment, Ray, RayComposer, Surfaces};
 
@@ -164,7 +165,8 @@ fn render_here(mesh: &TetMesh, scalars: &[f64], plan: &Plan, progress: &dyn Prog
         sorted: fragments,
         most_held: 0,
     };
-    Ok(Rendered { image, timings: watch.finish(), counts })
+    let order = OrderReport { guarantee: Guarantee::Exact, rings: 0 };
+    Ok(Rendered { image, timings: watch.finish(), counts, order })
 }
 
 impl Job<'_> {

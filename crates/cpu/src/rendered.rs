@@ -2,6 +2,7 @@
 
 use std::time::{Duration, Instant};
 
+use tetrascope_order::Guarantee;
 use tetrascope_scene::Stage;
 use tetrascope_view::LinearImage;
 
@@ -14,6 +15,17 @@ pub struct Rendered {
     pub timings: Vec<(Stage, Duration)>,
     /// What was done.
     pub counts: Counts,
+    /// How far the order can be trusted in which cells were blended.
+    pub order: OrderReport,
+}
+
+/// How far the order of a picture can be trusted.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct OrderReport {
+    /// What is promised, sorting in the pixels included.
+    pub guarantee: Guarantee,
+    /// Rings of cells that hide one another, where the order looks for them; [`Counts::cyclic`] has their cells.
+    pub rings: u64,
 }
 
 /// What was done for a picture.

@@ -1,7 +1,7 @@
 //! Whether a mesh is convex.
 
 use rayon::prelude::*;
-use tetrascope_mesh::{CellFace, FaceAdjacency, VertexId};
+use tetrascope_mesh::{CellFace, CellId, FaceAdjacency, VertexId};
 
 use crate::Cells;
 use crate::bsp::side_of;
@@ -24,7 +24,7 @@ fn points_of(cells: Cells<'_>, face: CellFace) -> ([VertexId; 3], VertexId) {
 /// is one with cells without volume.
 pub(crate) fn is_convex(cells: Cells<'_>, adjacency: &FaceAdjacency) -> bool {
     let boundary = adjacency.boundary_faces();
-    if boundary.is_empty() || !adjacency.non_manifold_faces().is_empty() || !adjacency.folded_faces().is_empty() {
+    if boundary.is_empty() || !adjacency.non_manifold_faces().is_empty() || !lies_flat(cells, adjacency) {
         return false;
     }
     // Every edge with its face, so that the two of an edge come side by side.
@@ -50,6 +50,24 @@ pub(crate) fn is_convex(cells: Cells<'_>, adjacency: &FaceAdjacency) -> bool {
         apex.is_some_and(|apex| inside != 0 && side_of(face.0.map(position), position(apex)) * inside >= 0)
     };
     edges.par_chunks(2).all(bends_outwards) && is_connected(&edges, boundary.len())
+}
+
+/// Whether the two cells of every face lie on different sides of it, whatever the order of their points.
+fn lies_flat(cells: Cells<'_>, adjacency: &FaceAdjacency) -> bool {
+    let position = |v: VertexId| cells.positions[v.index()];
+    adjacency.table().par_iter().enumerate().all(|(cell, neighbors)| {
+        (0..4).all(|corner| {
+            let neighbor = neighbors[corner];
+            // Each face once.
+            if neighbor == FaceAdjacency::NONE || (neighbor as usize) < cell {
+                return true;
+            }
+            let (face, apex) = points_of(cells, CellFace { cell: CellId(cell as u32), corner: corner as u8 });
+            let other = cells.tetrahedra[neighbor as usize].into_iter().find(|v| !face.contains(v));
+            let side = |v: VertexId| side_of(face.map(position), position(v));
+            other.is_some_and(|other| side(apex) * side(other) < 0)
+        })
+    })
 }
 
 /// Whether the faces hang together by their edges.
@@ -95,6 +113,22 @@ mod tests {
         assert!(!convex(&apex(DVec3::splat(4.0)), &[[0, 1, 2, 3], [1, 2, 3, 4]]), "a tip beyond the faces' planes");
         assert!(!convex(&apex(-DVec3::splat(1.0)), &[[0, 1, 2, 3], [0, 1, 2, 4]]), "bent inwards");
         assert!(!convex(&[], &[]));
+    }
+
+    #[test]
+    fn the_order_of_points_in_a_cell_is_nothing() {
+        let points = [DVec3::ZERO, DVec3::X, DVec3::Y, DVec3::Z, DVec3::splat(0.4)];
+        for cells in [[[0, 1, 2, 3], [1, 2, 3, 4]], [[1, 0, 2, 3], [1, 2, 3, 4]], [[3, 1, 2, 0], [4, 3, 2, 1]]] {
+            assert!(convex(&points, &cells), "{cells:?}");
+        }
+        // Folded: the second cell lies inside the first, and their common boundary is no tetrahedron's.
+        let inside = [DVec3::ZERO, DVec3::X, DVec3::Y, DVec3::Z, DVec3::splat(0.1)];
+        assert!(!convex(&inside, &[[0, 1, 2, 3], [1, 2, 3, 4]]));
+        // A star of four cells about a point outside of their hull's first face: closed and convex outside, folded inside.
+        let star = [[1, 2, 3, 4], [0, 2, 3, 4], [0, 1, 3, 4], [0, 1, 2, 4]];
+        assert!(convex(&inside, &star));
+        let outside = [DVec3::ZERO, DVec3::X, DVec3::Y, DVec3::Z, DVec3::splat(0.6)];
+        assert!(!convex(&outside, &star));
     }
 
     #[test]

@@ -7,11 +7,11 @@ use glam::DVec3;
 use tetrascope_order::{CycleRemedy, OrderMethod};
 use tetrascope_view::{Camera, Projection};
 
-use crate::file::{Choice, ProjectionName, SceneFile};
+use crate::file::{Choice, ProjectionName, QualitySection, SceneFile};
 use crate::text::short;
-use crate::{Decision, MeshFacts, Scene, SceneError, defaults};
+use crate::{Backend, Decision, MeshFacts, Scene, SceneError, defaults};
 
-use quality::{fill_isosurface_method, fill_order, fill_tables};
+use quality::{fill_cycles, fill_isosurface_method, fill_order, fill_tables, finds_rings};
 use surfaces::{fill_isosurfaces, fill_light};
 
 /// The largest error wanted in a channel when a scene does not say: one step of 8 bits.
@@ -28,6 +28,44 @@ pub struct Completed {
     pub decisions: Vec<Decision>,
     /// What the user should know: keys without an effect, a constant field.
     pub warnings: Vec<String>,
+}
+
+impl Completed {
+    /// Whether the order is still open: the scene leaves it to the mesh, which the scene alone does not know.
+    ///
+    /// [`Scene::plan`] then takes `bsp-xmpvo`, which is right for every mesh; a cheaper one may be right for this one.
+    pub fn leaves_order_open(&self) -> bool {
+        self.scene.order.is_none() && self.scene.backend == Backend::Cpu && !self.scene.commutes()
+    }
+
+    /// Gives an order that was left open its name, in the scene and in the file, with the reason.
+    pub fn settle_order(&mut self, order: OrderMethod, reason: &str) {
+        self.scene.order = Some(order);
+        name_order(&mut self.file.quality, order);
+        let decision = Decision::new("order", order.to_string(), reason);
+        match self.decisions.iter_mut().find(|decision| decision.subject == "order") {
+            Some(said) => *said = decision,
+            None => self.decisions.push(decision),
+        }
+        if !finds_rings(order) {
+            self.scene.cycles = CycleRemedy::Report;
+            self.file.quality.cycles = None;
+            self.decisions.retain(|decision| decision.subject != "cycles");
+        }
+        if order != OrderMethod::Power {
+            self.file.quality.keep_heights = None;
+        }
+    }
+}
+
+/// Writes an order into the file with the number that it goes by.
+fn name_order(section: &mut QualitySection, order: OrderMethod) {
+    section.order = Choice::Named(order);
+    match order {
+        OrderMethod::Bucket { slabs } => section.slabs = Some(slabs),
+        OrderMethod::KBuffer { window } => section.window = Some(window),
+        _ => {}
+    }
 }
 
 impl SceneFile {
@@ -71,13 +109,12 @@ impl SceneFile {
             threads: None,
         };
         scene.tables = fill_tables(&mut file.quality, scene.chosen_integration().0, &mut warnings);
+        let order = scene.decided_order();
+        scene.cycles = fill_cycles(&mut file.quality, order, scene.order.is_none(), &mut warnings);
         let plan = scene.plan()?;
         decisions.extend(plan.decisions);
         file.quality.integration = Choice::Named(plan.integration);
-        file.quality.order = Choice::Named(plan.order);
-        if let OrderMethod::Bucket { slabs } = plan.order {
-            file.quality.slabs = Some(slabs);
-        }
+        name_order(&mut file.quality, plan.order);
         Ok(Completed { file, scene, decisions, warnings })
     }
 

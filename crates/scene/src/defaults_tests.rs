@@ -142,8 +142,8 @@ fn up_is_never_along_the_line_of_sight() {
 #[test]
 fn auto_chooses_by_the_optical_model() {
     for (model, order) in [
-        ("density-emitter", OrderMethod::Mpvo),
-        ("emitter", OrderMethod::Mpvo),
+        ("density-emitter", OrderMethod::BspXmpvo),
+        ("emitter", OrderMethod::BspXmpvo),
         ("absorption", OrderMethod::None),
         ("emission", OrderMethod::None),
     ] {

@@ -54,6 +54,9 @@ volume = true
 integration = "average"
 order = "bucket"
 slabs = 77
+window = 3
+cycles = "cut"
+keep_heights = true
 table_size = 33
 table_lengths = 17
 length_axis = "logarithmic"
@@ -138,7 +141,10 @@ fn wrong_values_are_named_with_key_and_line() {
         ("quality", "length_axis", "\"cubic\"", "`linear` or `logarithmic`"),
         ("quality", "isosurfaces", "\"map\"", "`map-smooth`"),
         ("quality", "table_size", "64.5", "u32"),
-        ("quality", "order", "\"power\"", "not in this version"),
+        ("quality", "order", "\"depth\"", "bsp-xmpvo"),
+        ("quality", "window", "-1", "u32"),
+        ("quality", "cycles", "\"ignore\"", "report, cut or per-pixel"),
+        ("quality", "keep_heights", "1", "boolean"),
         ("quality", "backend", "\"gpu\"", "cpu and reference"),
         ("light", "direction", "\"sun\"", "headlight"),
         ("light", "direction", "[0, 1]", "headlight"),
@@ -213,6 +219,7 @@ fn numbers_out_of_range_are_refused() {
         ("[transfer]\ncolor = [[1.0, 0, -2, 0]]", "transfer.color entry 0: green is -2"),
         ("[transfer]\ncolor = [[1.0, 0, 0, nan]]", "transfer.color entry 0: blue is NaN"),
         ("[quality]\norder = \"bucket\"\nslabs = 0", "quality.slabs is 0"),
+        ("[quality]\norder = \"k-buffer\"\nwindow = 0", "quality.window is 0"),
     ] {
         let error = toml(&format!("[mesh]\npath = \"m\"\n{text}\n")).complete(&facts()).unwrap_err().to_string();
         assert!(error.contains(part), "{part} is not in: {error}");
@@ -226,6 +233,12 @@ fn a_completed_scene_is_complete() {
         "[camera]\nprojection = \"orthographic\"",
         "[optics]\nmodel = \"absorption\"",
         "[quality]\norder = \"bucket\"\n[image]\nwidth = 100",
+        "[quality]\norder = \"k-buffer\"",
+        "[quality]\norder = \"k-buffer\"\nwindow = 2",
+        "[quality]\norder = \"power\"\nkeep_heights = true",
+        "[quality]\norder = \"mpvo\"\ncycles = \"cut\"",
+        "[quality]\norder = \"per-pixel\"",
+        "[quality]\ncycles = \"report\"",
         "[camera]\nup = [0, 0, 1]",
         "[quality]\nintegration = \"table-2d\"",
         "[quality]\nintegration = \"table-3d\"\ntable_size = 32",
@@ -239,7 +252,7 @@ fn a_completed_scene_is_complete() {
         assert_eq!(again.warnings, Vec::<String>::new());
         let (a, b) = (once.scene.plan().unwrap(), again.scene.plan().unwrap());
         assert_eq!((a.view, a.transfer.pieces(), a.order), (b.view, b.transfer.pieces(), b.order));
-        assert_eq!((a.integration, a.tables), (b.integration, b.tables));
+        assert_eq!((a.integration, a.tables, a.cycles), (b.integration, b.tables, b.cycles));
         assert_eq!((a.isosurfaces, a.lighting), (b.isosurfaces, b.lighting));
         // Nothing depends on the mesh any more.
         let elsewhere = MeshFacts { lowest: DVec3::ZERO, highest: DVec3::splat(9.0), scalar_range: (7.0, 8.0) };

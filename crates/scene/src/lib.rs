@@ -75,4 +75,6 @@ mod field_tests;
 #[cfg(all(test, feature = "file"))]
 mod file_tests;
 #[cfg(all(test, feature = "file"))]
+mod order_tests;
+#[cfg(all(test, feature = "file"))]
 mod surface_tests;

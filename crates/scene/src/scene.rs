@@ -2,6 +2,7 @@
 
 mod light;
 mod methods;
+mod order;
 
 use tetrascope_integrate::{Integration, Isosurface, Isosurfaces, OpticalModel, TableSettings, TransferFunction};
 use tetrascope_order::{CycleRemedy, OrderMethod};
@@ -36,7 +37,7 @@ pub struct Scene {
     pub integration: Option<Integration>,
     /// Sizes of the integration's table; `None` takes the usual ones. Without effect for an integration without a table.
     pub tables: Option<TableSettings>,
-    /// In which order cells are blended; `None` leaves it to [`Scene::plan`].
+    /// In which order cells are blended; `None` leaves it to [`Scene::plan`], which knows the optical model and not the mesh.
     pub order: Option<OrderMethod>,
     /// What is done about cells that hide one another in rings.
     pub cycles: CycleRemedy,
@@ -69,7 +70,7 @@ impl Scene {
         let (integration, tables) = self.decide_integration(&mut decisions)?;
         self.check_isosurface_method(integration, isosurfaces.as_ref())?;
         self.decide_isosurfaces(isosurfaces.as_ref(), &mut decisions);
-        let order = self.decide_order(isosurfaces.is_some(), &mut decisions)?;
+        let order = self.decide_order(&mut decisions)?;
         let plan = Plan {
             view,
             background: self.background.map(|c| c as f32),
@@ -104,35 +105,6 @@ impl Scene {
             }
         }
         Ok(Some(IsosurfacePlan { surfaces: Isosurfaces::new(seen)?, method: self.isosurface_method }))
-    }
-
-    fn decide_order(&self, has_isosurfaces: bool, decisions: &mut Vec<Decision>) -> Result<OrderMethod, SceneError> {
-        if let Some(OrderMethod::Bucket { slabs: 0 }) = self.order {
-            return Err(SceneError::value("quality.slabs", 0, "give one or more"));
-        }
-        // A surface hides what is behind it in every optical model.
-        let commutes = self.model.is_commutative() && !has_isosurfaces;
-        let (order, reason) = match self.order {
-            Some(OrderMethod::None) if !commutes => {
-                (OrderMethod::None, "asked for; cells are blended as they come, which is wrong where they overlap")
-            }
-            Some(asked) => (asked, "asked for"),
-            None if commutes => (OrderMethod::None, "this optical model gives the same sum in any order"),
-            None => (
-                OrderMethod::Mpvo,
-                "neighbors by the planes between them; across gaps of the mesh the nearer center first",
-            ),
-        };
-        let choice = match order {
-            OrderMethod::Bucket { slabs } => format!("bucket, {slabs} slabs"),
-            other => other.to_string(),
-        };
-        if self.backend == Backend::Reference {
-            decisions.push(Decision::new("order", "per pixel", "the reference sorts the cells along every ray"));
-        } else {
-            decisions.push(Decision::new("order", choice, reason));
-        }
-        Ok(order)
     }
 
     /// Adds the decisions on light, gradients and the half of the transfer function that is not looked at.

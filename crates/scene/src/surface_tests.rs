@@ -112,7 +112,7 @@ fn surfaces_of_opacity_zero_are_left_out() {
 fn isosurfaces_need_an_order_in_every_model() {
     for model in OpticalModel::ALL {
         let text = format!("[optics]\nmodel = \"{model}\"\n{}", surfaces(&[(1.0, 0.5, "none")]));
-        assert_eq!(plan(&text).order, OrderMethod::Mpvo, "{model}");
+        assert_eq!(plan(&text).order, OrderMethod::BspXmpvo, "{model}");
         let unordered = plan(&format!("{text}[quality]\norder = \"none\""));
         assert!(decision(&unordered, "order").contains("wrong where they overlap"), "{model}");
     }

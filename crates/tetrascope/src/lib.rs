@@ -28,15 +28,19 @@
 //!
 //! Limits: the back ends are the CPU's; surfaces from files and color map files are not there yet and refused by name.
 
+mod check;
 mod error;
+mod order_worth;
 mod render;
 mod volume;
 
+pub use check::{MeshCheck, OrderCheck, PixelDifference, compare_pictures};
 pub use error::Error;
+pub use order_worth::OrderWorth;
 pub use render::{Picture, is_blank, render_scene, render_volume, warn_of_non_finite};
 pub use volume::{SAMPLE, Volume, VolumeField, is_builtin, resolve_path};
 
-pub use tetrascope_cpu::{Counts, CpuRenderer, RenderError, Rendered, reference};
+pub use tetrascope_cpu::{Counts, CpuRenderer, OrderReport, RenderError, Rendered, reference};
 pub use tetrascope_integrate::{
     Crossing, Deviation, Integration, Integrator, Isosurface, IsosurfaceError, IsosurfaceMap, Isosurfaces, LengthAxis,
     MethodError, OpticalModel, Phong, PhongError, PsiTable, RgbaAssoc, RunningIntegrals, ScalarAxis, Segment,
@@ -48,12 +52,15 @@ pub use tetrascope_mesh::{
     ArrayValues, CellKind, Cells, ChordLengths, DataArray, Dataset, Decomposition, MeshError, StructuredBlock, TetMesh,
     UnstructuredCells, chord_lengths, decompose, vertex_gradients,
 };
-pub use tetrascope_order::OrderMethod;
+pub use tetrascope_order::{
+    CycleRemedy, Guarantee, MeshVisibility, OrderChoice, OrderMethod, PowerCertificate, Relations, Verdict,
+};
 pub use tetrascope_scene::{
-    ArraySummary, Association, Backend, Choice, Completed, Decision, Field, FieldError, FieldOnMesh, Gradients,
-    IsosurfaceMethod, IsosurfaceMethodName, IsosurfacePlan, IsosurfaceSection, LengthAxisName, LightDirection,
-    LightName, LightSection, Lighting, MeshFacts, Mixing, Plan, Progress, ProjectionName, Scene, SceneError, SceneFile,
-    SceneSyntaxError, Shading, Silent, Stage, explain_blank, select_field, short, summarize_arrays,
+    ArraySummary, Association, Backend, CameraSection, Choice, Completed, Decision, Field, FieldError, FieldOnMesh,
+    Gradients, IsosurfaceMethod, IsosurfaceMethodName, IsosurfacePlan, IsosurfaceSection, LengthAxisName,
+    LightDirection, LightName, LightSection, Lighting, MeshFacts, Mixing, Plan, Progress, ProjectionName, Scene,
+    SceneError, SceneFile, SceneSyntaxError, Shading, Silent, Stage, explain_blank, select_field, short,
+    summarize_arrays,
 };
 pub use tetrascope_view::{Camera, LinearImage, Projection, View, ViewError};
 

@@ -1,14 +1,14 @@
 //! From a scene to a picture in one call.
 
 use std::path::Path;
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 use tetrascope_cpu::Counts;
 use tetrascope_io::write_image;
 use tetrascope_scene::{Plan, Progress, SceneFile, explain_blank};
 use tetrascope_view::LinearImage;
 
-use crate::{Error, Volume, resolve_path};
+use crate::{Error, OrderWorth, Volume, resolve_path};
 
 /// A picture, and how it was made.
 #[derive(Clone, Debug)]
@@ -25,6 +25,8 @@ pub struct Picture {
     pub timings: Vec<(String, Duration)>,
     /// What the back end did.
     pub counts: Counts,
+    /// What the order of its cells was worth.
+    pub order: OrderWorth,
 }
 
 impl Picture {
@@ -57,15 +59,18 @@ pub fn render_volume(volume: &Volume, scene: &SceneFile, progress: &dyn Progress
     let field = volume.field(scene.mesh.field.as_deref())?;
     let mut completed = scene.complete(&field.facts)?;
     completed.file.mesh.field = Some(field.field.name.clone());
-    let mut plan = completed.scene.plan()?;
-    plan.decisions = completed.decisions;
+    let start = Instant::now();
+    let plan = field.plan(&mut completed)?;
+    let chosen = start.elapsed();
     let rendered = field.render(&plan, progress)?;
+    let order = field.order_worth(&plan, &rendered)?;
 
     let mut warnings = volume.warnings.clone();
     warnings.extend(volume.decomposition.counts.findings());
     warnings.extend(field.field.warnings.iter().cloned());
     warnings.extend(field.on_mesh.warning());
     warnings.extend(completed.warnings);
+    warnings.extend(order.warnings.iter().cloned());
     warnings.extend(warn_of_non_finite(&rendered.image));
     if is_blank(&rendered.image) {
         warnings.push("the picture is blank".to_owned());
@@ -78,8 +83,9 @@ pub fn render_volume(volume: &Volume, scene: &SceneFile, progress: &dyn Progress
         plan,
         completed: completed.file,
         warnings,
-        timings: steps.chain(stages).collect(),
+        timings: steps.chain([("choose".to_owned(), chosen)]).chain(stages).collect(),
         counts: rendered.counts,
+        order,
     })
 }
 

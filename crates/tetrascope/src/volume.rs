@@ -1,6 +1,7 @@
 //! A mesh that was read and cut into tetrahedra, and a field on it.
 
 use std::path::{Path, PathBuf};
+use std::sync::{Arc, OnceLock};
 use std::time::{Duration, Instant};
 
 use tetrascope_cpu::{CpuRenderer, Rendered, reference};
@@ -24,6 +25,8 @@ const SAMPLE_CELLS: usize = 24;
 pub struct Volume {
     /// The file that it came from, for messages.
     pub source_name: String,
+    /// The mesh file itself; `None` for what was never in a file.
+    pub path: Option<PathBuf>,
     /// The format, with what was found out about it.
     pub format: String,
     /// What the reader found odd and how it was treated.
@@ -55,6 +58,7 @@ impl Volume {
         let loaded = read_mesh(path, solution)?;
         let read = start.elapsed();
         let mut volume = Self::from_dataset(loaded.dataset, &path.display().to_string())?;
+        volume.path = Some(path.to_owned());
         volume.format = loaded.format;
         volume.warnings = loaded.warnings;
         volume.timings[0].1 = read;
@@ -71,6 +75,7 @@ impl Volume {
             decompose(&dataset).map_err(|error| Error::Mesh { source_name: source_name.to_owned(), error })?;
         Ok(Self {
             source_name: source_name.to_owned(),
+            path: None,
             format: "in memory".to_owned(),
             warnings: Vec::new(),
             dataset,
@@ -110,11 +115,13 @@ impl Volume {
             source_name: self.source_name.clone(),
             error: tetrascope_mesh::MeshError::NoCells { points: self.dataset.points.len() },
         })?;
-        Ok(VolumeField { field, on_mesh, facts })
+        Ok(VolumeField { field, on_mesh, facts, mesh_path: self.path.as_deref(), renderer: OnceLock::new() })
     }
 }
 
 /// A scalar on the tetrahedra of a [`Volume`], ready to be drawn.
+///
+/// What the renderer learns of mesh and field it keeps from picture to picture; clones share it.
 #[derive(Clone, Debug)]
 pub struct VolumeField<'a> {
     /// Name, origin, notes and warnings of the choice.
@@ -123,31 +130,45 @@ pub struct VolumeField<'a> {
     pub on_mesh: FieldOnMesh<'a>,
     /// What defaults are made from.
     pub facts: MeshFacts,
+    pub(crate) mesh_path: Option<&'a Path>,
+    pub(crate) renderer: OnceLock<Arc<CpuRenderer>>,
 }
 
 impl VolumeField<'_> {
     /// Draws the field as the plan says, with the back end that the plan names.
     ///
-    /// The first of the timings is [`Stage::Prepare`] unless the back end prepares nothing. Who draws one field from many
-    /// sides keeps a [`CpuRenderer`] instead.
-    ///
     /// # Errors
     /// [`Error::Render`].
     pub fn render(&self, plan: &Plan, progress: &dyn Progress) -> Result<Rendered, Error> {
-        let (mesh, scalars) = (self.on_mesh.mesh.as_ref(), self.on_mesh.scalars.as_slice());
         match plan.backend {
-            Backend::Reference => Ok(reference::render(mesh, scalars, plan, progress)?),
+            Backend::Reference => {
+                Ok(reference::render(self.on_mesh.mesh.as_ref(), &self.on_mesh.scalars, plan, progress)?)
+            }
             Backend::Cpu => {
                 let start = Instant::now();
-                let renderer = CpuRenderer::new(mesh, scalars)?;
+                let renderer = self.renderer()?;
                 let prepared = start.elapsed();
                 let mut rendered = renderer.render(plan, progress)?;
-                if rendered.timings.iter().all(|(stage, _)| *stage != Stage::Prepare) {
-                    rendered.timings.insert(0, (Stage::Prepare, prepared));
+                // Making the renderer is a part of preparing, unless it was there already.
+                match rendered.timings.iter_mut().find(|(stage, _)| *stage == Stage::Prepare) {
+                    Some((_, time)) => *time += prepared,
+                    None => rendered.timings.insert(0, (Stage::Prepare, prepared)),
                 }
                 Ok(rendered)
             }
         }
+    }
+
+    /// The fast renderer of this field, made when first asked for.
+    ///
+    /// # Errors
+    /// [`Error::Render`].
+    pub fn renderer(&self) -> Result<&CpuRenderer, Error> {
+        if let Some(renderer) = self.renderer.get() {
+            return Ok(renderer);
+        }
+        let made = Arc::new(CpuRenderer::new(self.on_mesh.mesh.as_ref(), &self.on_mesh.scalars)?);
+        Ok(self.renderer.get_or_init(|| made))
     }
 }
 

@@ -42,7 +42,7 @@ use rayon::prelude::*;
 
 use tetrascope_integrate::{Integration, Isosurfaces};
 use tetrascope_mesh::{CellId, ChordLengths, Frame, TetMesh, VertexId, point_gradients, segment_lengths};
-use tetrascope_order::{Cells, CycleRemedy, MeshVisibility, OrderMethod, VisibilityOrder};
+use tetrascope_order::{Cells, CycleRemedy, Guarantee, MeshVisibility, OrderMethod, PixelSort, VisibilityOrder};
 use tetrascope_scene::{Gradients, Plan, Progress, Stage};
 use tetrascope_view::LinearImage;
 
@@ -50,7 +50,7 @@ use crate::error::{check_methods, check_scalars, on_threads};
 use crate::geometry::{PixelSpace, Points, ascending};
 use crate::grid::{Bins, TileGrid};
 use crate::rendered::Stopwatch;
-use crate::{Counts, RenderError, Rendered};
+use crate::{Counts, OrderReport, RenderError, Rendered};
 use cell::{NOWHERE, Outline};
 use effects::Effects;
 use held::Held;
@@ -165,6 +165,14 @@ impl CpuRenderer {
         })
     }
 
+    /// The same with heights of the points that were found before, see [`MeshVisibility::with_heights`].
+    ///
+    /// # Errors
+    /// Those of [`Self::new`].
+    pub fn with_heights(mesh: &TetMesh, scalars: &[f64], heights: Vec<f64>) -> Result<Self, RenderError> {
+        Ok(Self { visibility: MeshVisibility::with_heights(heights), ..Self::new(mesh, scalars)? })
+    }
+
     /// Draws a picture as the plan says; the plan's back end is ignored.
     ///
     /// The same plan gives the same bits, whatever the number of threads.
@@ -221,6 +229,7 @@ impl CpuRenderer {
             optics.visible().par_iter().copied().filter(|cell| outlines[cell.index()] != NOWHERE).collect();
         let cells = self.cells();
         let mut order = self.order(plan.order, cells).order.order(cells, view.viewpoint(), &seen);
+        let rings = order.cycles.len() as u64;
         let cyclic = order.cycles.iter().map(|ring| ring.len() as u64).sum();
         if plan.cycles == CycleRemedy::Cut {
             order = order.cut_cycles(cells, view.viewpoint());
@@ -318,7 +327,12 @@ impl CpuRenderer {
             most_held: most_held.into_inner(),
         };
         *self.scratch.lock().unwrap_or_else(PoisonError::into_inner) = Some(scratch);
-        Ok(Rendered { image, timings: watch.finish(), counts })
+        let guarantee = match plan.order.pixel_sort() {
+            PixelSort::All => Guarantee::Exact,
+            PixelSort::None | PixelSort::Window(_) => order.guarantee,
+        };
+        let order = OrderReport { guarantee, rings };
+        Ok(Rendered { image, timings: watch.finish(), counts, order })
     }
 
     /// A visibility order, made ready for the mesh when first asked for.

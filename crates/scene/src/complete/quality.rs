@@ -1,7 +1,7 @@
 //! Orders, tables and maps: numbers for those that are used, a warning for those that are not.
 
 use tetrascope_integrate::{Integration, LengthAxis, TableSettings};
-use tetrascope_order::OrderMethod;
+use tetrascope_order::{CycleRemedy, OrderMethod};
 
 use crate::IsosurfaceMethod;
 use crate::file::{Choice, IsosurfaceMethodName, QualitySection, SceneFile};
@@ -14,16 +14,46 @@ fn drop_key<T>(slot: &mut Option<T>, key: &str, why: &str, warnings: &mut Vec<St
 }
 
 pub(super) fn fill_order(section: &mut QualitySection, warnings: &mut Vec<String>) -> Option<OrderMethod> {
-    match (section.order, section.slabs) {
-        (Choice::Named(OrderMethod::Bucket { .. }), Some(slabs)) => Some(OrderMethod::Bucket { slabs }),
-        (order, _) => {
-            drop_key(&mut section.slabs, "slabs", &format!("the order is {order}, not bucket"), warnings);
-            match order {
-                Choice::Auto => None,
-                Choice::Named(order) => Some(order),
-            }
-        }
+    let order = section.order;
+    if !matches!(order, Choice::Named(OrderMethod::Bucket { .. })) {
+        drop_key(&mut section.slabs, "slabs", &format!("the order is {order}, not bucket"), warnings);
     }
+    if !matches!(order, Choice::Named(OrderMethod::KBuffer { .. })) {
+        drop_key(&mut section.window, "window", &format!("the order is {order}, not k-buffer"), warnings);
+    }
+    let order = match order {
+        Choice::Auto => return None,
+        Choice::Named(order) => order,
+    };
+    Some(match (order, section.slabs, section.window) {
+        (OrderMethod::Bucket { .. }, Some(slabs), _) => OrderMethod::Bucket { slabs },
+        (OrderMethod::KBuffer { .. }, _, Some(window)) => OrderMethod::KBuffer { window },
+        (order, _, _) => order,
+    })
+}
+
+/// What is done about rings, and whether heights are kept, for an order that was decided; `is_auto` if nobody asked for it.
+pub(super) fn fill_cycles(
+    section: &mut QualitySection,
+    order: OrderMethod,
+    is_auto: bool,
+    warnings: &mut Vec<String>,
+) -> CycleRemedy {
+    // The order that the mesh itself will be given may be "power".
+    let may_be_power = order == OrderMethod::Power || is_auto && order != OrderMethod::None;
+    if !may_be_power {
+        drop_key(&mut section.keep_heights, "keep_heights", &format!("the order {order} has no heights"), warnings);
+    }
+    if finds_rings(order) {
+        return *section.cycles.get_or_insert(CycleRemedy::PerPixel);
+    }
+    drop_key(&mut section.cycles, "cycles", &format!("the order {order} looks for no rings"), warnings);
+    CycleRemedy::Report
+}
+
+/// Whether an order says which cells hide one another in rings.
+pub(crate) fn finds_rings(order: OrderMethod) -> bool {
+    matches!(order, OrderMethod::Mpvo | OrderMethod::BspXmpvo)
 }
 
 /// The table's sizes for this integration; `None` if it has no table.

@@ -66,3 +66,27 @@ pub(super) mod as_name {
         String::deserialize(deserializer)?.parse().map_err(D::Error::custom)
     }
 }
+
+/// The same for what may be left out.
+pub(super) mod as_optional_name {
+    use super::{Deserializer, Display, FromStr, Serializer, as_name};
+
+    pub(in crate::file) fn serialize<T: Display, S: Serializer>(
+        value: &Option<T>,
+        serializer: S,
+    ) -> Result<S::Ok, S::Error> {
+        match value {
+            Some(value) => serializer.collect_str(value),
+            None => serializer.serialize_none(),
+        }
+    }
+
+    pub(in crate::file) fn deserialize<'de, T, D>(deserializer: D) -> Result<Option<T>, D::Error>
+    where
+        T: FromStr,
+        T::Err: Display,
+        D: Deserializer<'de>,
+    {
+        as_name::deserialize(deserializer).map(Some)
+    }
+}

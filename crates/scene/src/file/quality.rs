@@ -2,9 +2,9 @@
 
 use serde::{Deserialize, Serialize};
 use tetrascope_integrate::{Integration, LengthAxis};
-use tetrascope_order::OrderMethod;
+use tetrascope_order::{CycleRemedy, OrderMethod};
 
-use super::names::{Choice, as_name};
+use super::names::{Choice, as_name, as_optional_name};
 use crate::{Backend, IsosurfaceMethod, Mixing};
 
 /// `[quality]`
@@ -18,6 +18,15 @@ pub struct QualitySection {
     /// Number of slabs, for `order = "bucket"` only.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub slabs: Option<u32>,
+    /// Cells that a pixel holds back, for `order = "k-buffer"` only.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub window: Option<u32>,
+    /// What is done about cells that hide one another in rings, for orders that look for them: `"mpvo"` and `"bsp-xmpvo"`.
+    #[serde(skip_serializing_if = "Option::is_none", with = "as_optional_name")]
+    pub cycles: Option<CycleRemedy>,
+    /// Whether the heights of `order = "power"` are kept in a file beside the mesh and read from there.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub keep_heights: Option<bool>,
     /// Samples along each scalar axis of a table, and along its axis of lengths unless `table_lengths` says otherwise;
     /// for `integration = "table-2d"` and `"table-3d"` only.
     #[serde(skip_serializing_if = "Option::is_none")]

@@ -1,0 +1,170 @@
+//! What `tetrascope check` tells: what a mesh is like for visibility orders, and how far each of them is right from a view.
+
+use std::time::{Duration, Instant};
+
+use tetrascope_mesh::{CellId, Decomposition, FaceAdjacency, MeshReport, check};
+use tetrascope_order::{OrderMethod, PowerCertificate, Relations, Verdict};
+use tetrascope_scene::{Backend, Plan, Progress};
+use tetrascope_view::LinearImage;
+
+use crate::{Error, VolumeField};
+
+/// What a mesh is like for visibility orders, from wherever it is seen.
+#[derive(Clone, Debug, PartialEq)]
+pub struct MeshCheck {
+    /// What is odd about the mesh.
+    pub report: MeshReport,
+    /// Faces of the tetrahedra, each once.
+    pub faces: usize,
+    /// Whether no ray leaves the mesh and enters it again.
+    pub is_convex: bool,
+    /// What is proven of the heights `|p|²`: whether the mesh is Delaunay.
+    pub delaunay: PowerCertificate,
+    /// What is proven of the best heights known; `None` where none were looked for.
+    pub power: Option<PowerCertificate>,
+}
+
+/// What an order is worth from one view.
+#[derive(Clone, Debug)]
+pub struct OrderCheck {
+    /// The order.
+    pub method: OrderMethod,
+    /// Pairs of cells in the wrong order; `None` for orders that are left to the pixels.
+    pub verdict: Option<Verdict>,
+    /// Wall time of sorting all cells of the mesh, once everything about the mesh is known. Without what pixels sort.
+    pub sorted_in: Duration,
+    /// Wall time of drawing the picture, likewise.
+    pub drawn_in: Duration,
+    /// Where the picture differs from one that is sorted in every pixel.
+    pub pixels: PixelDifference,
+}
+
+/// Where two pictures differ.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PixelDifference {
+    /// For every pixel, in rows from the top, the largest difference in any of its four channels; infinite where a channel is no number.
+    pub by_pixel: Vec<f32>,
+}
+
+impl PixelDifference {
+    /// What rounding may leave between two pictures in f32 that blend the same cells in the same order.
+    pub const ROUNDING: f32 = 1e-5;
+    /// One step of an 8-bit channel.
+    pub const STEP: f32 = 1.0 / 255.0;
+
+    /// Pixels with a difference above a limit.
+    pub fn above(&self, limit: f32) -> usize {
+        self.by_pixel.iter().filter(|difference| **difference > limit).count()
+    }
+
+    /// The largest difference; 0 for a picture without pixels.
+    pub fn largest(&self) -> f32 {
+        self.by_pixel.iter().copied().fold(0.0, f32::max)
+    }
+
+    /// A picture of it: black up to [`Self::ROUNDING`], then brighter with the logarithm, white from 1 on.
+    ///
+    /// - `width`: pixels a row
+    pub fn map(&self, width: u32) -> Option<LinearImage> {
+        let brightness = |difference: f32| {
+            let decades = (difference / Self::ROUNDING).max(1.0).log10() / -Self::ROUNDING.log10();
+            // A .png stores about the square root of it.
+            let linear = decades.min(1.0).powi(2);
+            [linear, linear, linear, 1.0]
+        };
+        let height = self.by_pixel.len() as u32 / width.max(1);
+        LinearImage::from_pixels(width, height, self.by_pixel.iter().map(|&d| brightness(d)).collect())
+    }
+}
+
+/// Where two pictures of one size differ; pixels that only one of them has count as infinitely different.
+pub fn compare_pictures(picture: &LinearImage, exact: &LinearImage) -> PixelDifference {
+    let difference = |(a, b): (&[f32; 4], &[f32; 4])| {
+        let channels = a.iter().zip(b).map(|(a, b)| (a - b).abs());
+        channels.fold(0.0, |largest: f32, d| if d.is_nan() { f32::INFINITY } else { largest.max(d) })
+    };
+    let mut by_pixel: Vec<f32> = picture.pixels().iter().zip(exact.pixels()).map(difference).collect();
+    by_pixel.resize(picture.pixels().len().max(exact.pixels().len()), f32::INFINITY);
+    PixelDifference { by_pixel }
+}
+
+impl VolumeField<'_> {
+    /// Looks at the mesh that this field is drawn on.
+    ///
+    /// - `decomposition`: of the volume that the field is from
+    /// - `with_heights`: whether heights are looked for where the mesh is not Delaunay, which may take seconds
+    ///
+    /// # Errors
+    /// [`Error::Render`] as [`Self::renderer`].
+    pub fn check_mesh(&self, decomposition: &Decomposition, with_heights: bool) -> Result<MeshCheck, Error> {
+        let renderer = self.renderer()?;
+        let (cells, visibility) = (renderer.cells(), renderer.visibility());
+        let report = check(decomposition, &FaceAdjacency::new(decomposition.mesh.tetrahedra()));
+        let adjacency = visibility.adjacency(cells);
+        let joined: usize =
+            adjacency.table().iter().flatten().filter(|&&neighbor| neighbor != FaceAdjacency::NONE).count() / 2;
+        let faces = joined + adjacency.boundary_faces().len() + adjacency.non_manifold_faces().len();
+        let delaunay = visibility.quick_certificate(cells);
+        let power = if delaunay.is_exact() {
+            Some(delaunay)
+        } else {
+            with_heights.then(|| visibility.power(cells).certificate())
+        };
+        Ok(MeshCheck { report, faces, is_convex: visibility.is_convex(cells), delaunay, power })
+    }
+
+    /// Which cells come before which as the plan's view has them.
+    ///
+    /// # Errors
+    /// [`Error::Render`] as [`Self::renderer`].
+    pub fn relations(&self, plan: &Plan) -> Result<Relations<'_>, Error> {
+        let renderer = self.renderer()?;
+        Ok(renderer.visibility().relations(renderer.cells(), self.view(plan).viewpoint()))
+    }
+
+    /// The picture that orders are measured by: every pixel sorts what its ray meets.
+    ///
+    /// # Errors
+    /// [`Error::Render`].
+    pub fn exact_picture(&self, plan: &Plan, progress: &dyn Progress) -> Result<LinearImage, Error> {
+        let plan = Plan { order: OrderMethod::PerPixel, backend: Backend::Cpu, ..plan.clone() };
+        Ok(self.render(&plan, progress)?.image)
+    }
+
+    /// Judges an order from the plan's view: all pairs of cells of the mesh, and the plan's picture with this order in the place of its own.
+    ///
+    /// - `relations`, `exact`: [`Self::relations`] and [`Self::exact_picture`] of the same plan
+    ///
+    /// # Errors
+    /// [`Error::Render`].
+    pub fn check_order(
+        &self,
+        plan: &Plan,
+        method: OrderMethod,
+        relations: &Relations<'_>,
+        exact: &LinearImage,
+        progress: &dyn Progress,
+    ) -> Result<OrderCheck, Error> {
+        let renderer = self.renderer()?;
+        let cells = renderer.cells();
+        let viewpoint = self.view(plan).viewpoint();
+        let all: Vec<CellId> = (0..cells.tetrahedra.len() as u32).map(CellId).collect();
+        let order = renderer.visibility().prepare(cells, method);
+        let start = Instant::now();
+        let sorted = order.order(cells, viewpoint, &all);
+        let sorted_in = start.elapsed();
+        let is_left_to_pixels = matches!(method, OrderMethod::KBuffer { .. } | OrderMethod::PerPixel);
+        let verdict = (!is_left_to_pixels).then(|| relations.judge(&sorted.front_to_back));
+        let plan = Plan { order: method, backend: Backend::Cpu, ..plan.clone() };
+        let start = Instant::now();
+        let picture = renderer.render(&plan, progress)?.image;
+        let drawn_in = start.elapsed();
+        Ok(OrderCheck { method, verdict, sorted_in, drawn_in, pixels: compare_pictures(&picture, exact) })
+    }
+
+    /// The plan's view in the coordinates of the mesh.
+    fn view(&self, plan: &Plan) -> tetrascope_view::View {
+        let frame = self.on_mesh.mesh.frame();
+        plan.view.in_frame(frame.origin, frame.scale)
+    }
+}

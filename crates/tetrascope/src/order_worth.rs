@@ -1,0 +1,109 @@
+//! Which order a mesh is given, and what it was worth in a picture.
+
+use tetrascope_cpu::Rendered;
+use tetrascope_order::{CycleRemedy, Guarantee, OrderMethod, PowerCertificate};
+use tetrascope_scene::{Backend, Completed, Plan, short};
+
+use crate::{Error, VolumeField};
+
+/// What the order of a picture was worth, in sentences.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct OrderWorth {
+    /// How far it can be trusted.
+    pub summary: String,
+    /// Cells that hide one another in rings, and what was done; `None` where there are none or nobody looked.
+    pub rings: Option<String>,
+    /// What the user should know.
+    pub warnings: Vec<String>,
+}
+
+impl VolumeField<'_> {
+    /// The plan of a completed scene for this mesh: an order that the scene leaves open is settled, in `completed` too.
+    ///
+    /// What is learned of the mesh for that (whether it is convex, whether it is Delaunay) is kept for the pictures.
+    ///
+    /// # Errors
+    /// [`Error::Scene`] as [`Scene::plan`](tetrascope_scene::Scene::plan), [`Error::Render`] as [`Self::renderer`].
+    pub fn plan(&self, completed: &mut Completed) -> Result<Plan, Error> {
+        if completed.leaves_order_open() {
+            let renderer = self.renderer()?;
+            let choice = renderer.visibility().choose(renderer.cells());
+            completed.settle_order(choice.method, choice.reason);
+        }
+        let mut plan = completed.scene.plan()?;
+        plan.decisions.clone_from(&completed.decisions);
+        Ok(plan)
+    }
+
+    /// What the order of a picture of this field was worth.
+    ///
+    /// # Errors
+    /// [`Error::Render`] as [`Self::renderer`].
+    pub fn order_worth(&self, plan: &Plan, rendered: &Rendered) -> Result<OrderWorth, Error> {
+        let mut worth = OrderWorth::default();
+        if plan.model.is_commutative() && plan.isosurfaces.is_none() {
+            "nothing depends on the order".clone_into(&mut worth.summary);
+            return Ok(worth);
+        }
+        if plan.backend == Backend::Reference {
+            "exact: sorted along every ray".clone_into(&mut worth.summary);
+            return Ok(worth);
+        }
+        let renderer = self.renderer()?;
+        let (cells, visibility) = (renderer.cells(), renderer.visibility());
+        let across_gaps = "; the mesh is not convex, and across its gaps the order is a guess";
+        worth.summary = match plan.order {
+            OrderMethod::PerPixel => "exact: sorted in every pixel".to_owned(),
+            OrderMethod::KBuffer { window } => {
+                format!("not guaranteed: by centers, mended in every pixel within {window} cells")
+            }
+            OrderMethod::None => "none: cells are blended as they come".to_owned(),
+            OrderMethod::Power => {
+                let certificate = visibility.power(cells).certificate();
+                if certificate.is_exact() {
+                    let gaps = if visibility.is_convex(cells) { "" } else { across_gaps };
+                    format!("proven for all {} faces between cells{gaps}", certificate.faces)
+                } else {
+                    worth.warnings.push(unproven(&certificate));
+                    "not proven for this mesh: neighbors may come in the wrong order".to_owned()
+                }
+            }
+            _ => match rendered.order.guarantee {
+                Guarantee::Exact => "exact, across gaps of the mesh too".to_owned(),
+                Guarantee::Faces if visibility.is_convex(cells) => "exact: the mesh is convex".to_owned(),
+                Guarantee::Faces => format!("exact for neighbors{across_gaps}"),
+                _ => "not guaranteed: by one point of a cell, so that neighbors may come in the wrong order".to_owned(),
+            },
+        };
+        if rendered.order.rings > 0 {
+            worth.rings = Some(rings(plan.cycles, rendered));
+        }
+        Ok(worth)
+    }
+}
+
+fn unproven(certificate: &PowerCertificate) -> String {
+    let PowerCertificate { faces, violated, folded, flat, imprecise } = *certificate;
+    let share = 100.0 * violated as f64 / faces.max(1) as f64;
+    format!(
+        "the order \"power\" is not proven for this mesh: {violated} of {faces} faces between cells ({} %) are not convex under the \
+         heights found, {folded} are folded, {flat} belong to cells without volume, and {imprecise} cells are too thin for \
+         their key; neighbors there may come in the wrong order. \"auto\", \"bsp-xmpvo\" and \"per-pixel\" are right",
+        short(share)
+    )
+}
+
+fn rings(remedy: CycleRemedy, rendered: &Rendered) -> String {
+    let (cells, rings) = (rendered.counts.cyclic, rendered.order.rings);
+    let plural = if rings == 1 { "" } else { "s" };
+    let done = match remedy {
+        CycleRemedy::Report => {
+            "they are blended by the distance of their centers, which is wrong there; cycles \"per-pixel\" and \"cut\" are right"
+        }
+        CycleRemedy::Cut => "those that are drawn are cut so that an order is right",
+        CycleRemedy::PerPixel => "the pixels that they cover are sorted ray by ray",
+    };
+    format!(
+        "{cells} tetrahedra hide one another in {rings} ring{plural}, where no order of whole cells is right; {done}"
+    )
+}
