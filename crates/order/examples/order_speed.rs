@@ -14,7 +14,7 @@ use std::time::Instant;
 
 use glam::DVec3;
 use tetrascope_mesh::{CellId, TetMesh, VertexId, decompose, rings_sample};
-use tetrascope_order::{Cells, MeshVisibility, OrderMethod, VisibilityOrder};
+use tetrascope_order::{Cells, MeshVisibility, Mpvo, OrderMethod, VisibilityOrder};
 use tetrascope_view::Viewpoint;
 
 /// A mesh, by its parts.
@@ -72,6 +72,30 @@ fn median(mut values: Vec<f64>) -> f64 {
     values[values.len() / 2]
 }
 
+/// Degrees from view to view.
+const TURNS: [f64; 4] = [0.02, 0.1, 0.5, 3.0];
+
+/// What an order costs that may begin with the one of the view before, relative to one that may not.
+fn turn(cells: Cells<'_>, drawn: &[CellId], degrees: f64, rounds: usize) -> f64 {
+    let [going, new] = [(), ()].map(|()| Mpvo::new(cells));
+    let eye = |angle: f64| Viewpoint::Eye(DVec3::new(angle.cos() * 3.1, angle.sin() * 3.1, 1.7));
+    let seconds = |mpvo: &Mpvo, angle: f64| {
+        let start = Instant::now();
+        std::hint::black_box(mpvo.order(cells, eye(angle), drawn));
+        start.elapsed().as_secs_f64()
+    };
+    let (mut going_times, mut new_times) = (Vec::new(), Vec::new());
+    for round in 0..rounds {
+        let angle = 0.3 + round as f64 * degrees.to_radians();
+        // The other one comes from the far side.
+        new.order(cells, eye(angle + 3.0), drawn);
+        new_times.push(seconds(&new, angle));
+        going.order(cells, eye(angle - degrees.to_radians()), drawn);
+        going_times.push(seconds(&going, angle));
+    }
+    median(going_times) / median(new_times)
+}
+
 fn main() {
     let mut arguments = std::env::args().skip(1);
     let largest: f64 = arguments.next().and_then(|a| a.parse().ok()).unwrap_or(1e6);
@@ -109,6 +133,10 @@ fn main() {
                 let seconds = median(times);
                 let (ms, ns) = (seconds * 1e3, seconds * 1e9 / count as f64);
                 println!("{count:>9} {:>9}  {:>10} {ms:>9.3} {ns:>7.1}", grid.name, method.to_string());
+            }
+            for degrees in TURNS {
+                let turned = turn(cells, &drawn, degrees, rounds.max(2));
+                println!("{count:>9} {:>9}  mpvo, a turn of {degrees} degrees: {turned:.2} of a new order", grid.name);
             }
         }
     }

@@ -14,7 +14,8 @@ use crate::{BspTree, Cells, Guarantee, Mpvo, Order, VisibilityOrder};
 /// there were too many to compare. Where cells hide one another in a ring, by faces or across gaps, no order is right: the ring is
 /// reported in [`Order::cycles`].
 ///
-/// No centroid is looked at but for the cells of a ring: which of two cells that no ray meets comes first follows from their numbers.
+/// No centroid is looked at but for the cells of a ring: which of two cells that no ray meets both of comes first
+/// follows from their numbers, or from views before, see [`Mpvo`].
 ///
 /// Source: [Comba 1999].
 #[derive(Clone, Debug)]

@@ -49,6 +49,11 @@ impl Gaps {
         gaps
     }
 
+    /// Whether there are no relations.
+    pub(crate) fn is_empty(&self) -> bool {
+        self.lists.is_empty()
+    }
+
     /// The same relations, led back.
     pub(crate) fn reversed(&self, count: usize) -> Self {
         let mut relations: Vec<(CellId, CellId)> =

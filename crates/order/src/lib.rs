@@ -43,6 +43,7 @@ mod planes;
 mod power;
 mod radix;
 mod remedy;
+mod repair;
 mod sides;
 mod sweep;
 mod unordered;
@@ -160,6 +161,8 @@ pub trait VisibilityOrder: std::fmt::Debug + Send + Sync {
 mod cycles_tests;
 #[cfg(test)]
 mod mpvo_tests;
+#[cfg(test)]
+mod repair_tests;
 #[cfg(test)]
 mod sides_tests;
 #[cfg(test)]
