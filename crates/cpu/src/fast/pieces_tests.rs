@@ -85,8 +85,10 @@ fn rings() -> Soup {
     soup.add_ring(4, 0.5, -0.8);
     soup.add_ring(11, 1.0, 0.1);
     soup.add_ring(5, 0.7, 3.0);
-    // The eye of a view is in here.
+    // The eye of a view is in here. No surface is: seen along, one would show how far surfaces are moved in f32.
     soup.add([DVec3::ZERO, DVec3::X, DVec3::Y, DVec3::Z].map(|p| p * 0.8 + DVec3::new(-0.2, -0.2, 1.2)));
+    soup.scalars.truncate(soup.points.len() - 4);
+    soup.scalars.extend([0.3, 0.35, 0.4, 0.45]);
     soup
 }
 
@@ -110,10 +112,12 @@ fn views() -> Vec<View> {
     ]
 }
 
-fn plan(view: View, model: OpticalModel) -> Plan {
+/// - `strength`: of the extinction; at 1 a bar takes away about half of the light
+fn plan(view: View, strength: f64) -> Plan {
     let color = [[0.0, 0.05, 0.2, 0.9], [0.4, 0.2, 0.9, 0.3], [1.0, 1.0, 0.55, 0.05]];
-    let transfer = TransferFunction::new(&color, &[[0.0, 9.0], [0.6, 30.0], [1.0, 20.0]]).unwrap();
-    Plan::new(view, transfer, model)
+    let extinction = [[0.0, 3.0], [0.6, 9.0], [1.0, 6.0]].map(|[scalar, extinction]| [scalar, strength * extinction]);
+    let transfer = TransferFunction::new(&color, &extinction).unwrap();
+    Plan::new(view, transfer, OpticalModel::DensityEmitter)
 }
 
 fn with_surfaces(plan: Plan) -> Plan {
@@ -138,20 +142,17 @@ fn distance(a: &LinearImage, b: &LinearImage) -> f32 {
 fn cut_rings_are_drawn_as_rays_meet_them() {
     let soup = rings();
     for (index, view) in views().into_iter().enumerate() {
-        for model in [OpticalModel::DensityEmitter, OpticalModel::Emitter] {
-            let plan = plan(view, model);
-            let reference = soup.reference(&plan);
-            let cut = soup.fast(&plan, CycleRemedy::Cut);
-            let found = distance(&cut.image, &reference);
-            assert!(found <= 1e-5, "view {index}, {model}: {found}");
-            assert_eq!(cut.counts.cyclic, soup.cells.len() as u64, "rings as the order found them");
-            // Where a ring is seen, the pictures differ without the remedy, and there are more parts than cells.
-            let reported = soup.fast(&plan, CycleRemedy::Report);
-            if index < 4 {
-                assert!(distance(&reported.image, &reference) > 1e-2, "view {index}: no ring to be seen");
-                assert!(cut.counts.drawn > reported.counts.drawn);
-            }
-        }
+        let plan = plan(view, 1.0);
+        let reference = soup.reference(&plan);
+        let cut = soup.fast(&plan, CycleRemedy::Cut);
+        let found = distance(&cut.image, &reference);
+        assert!(found <= 1e-5, "view {index}: {found}");
+        assert_eq!(cut.counts.cyclic, soup.cells.len() as u64, "rings as the order found them");
+        // Where a ring is seen, the picture differs without the remedy, and there are more parts than cells.
+        let reported = soup.fast(&plan, CycleRemedy::Report);
+        assert!(cut.counts.drawn > reported.counts.drawn);
+        let without = distance(&reported.image, &reference);
+        assert!(without > 2e-3, "view {index}: no ring to be seen, {without}");
     }
 }
 
@@ -160,10 +161,11 @@ fn cut_rings_are_drawn_as_rays_meet_them() {
 fn surfaces_go_on_from_piece_to_piece() {
     let soup = rings();
     for (index, view) in views().into_iter().enumerate() {
-        let plan = with_surfaces(plan(view, OpticalModel::DensityEmitter));
+        let plan = with_surfaces(plan(view, 0.3));
         let reference = soup.reference(&plan);
         let cut = soup.fast(&plan, CycleRemedy::Cut);
         let found = distance(&cut.image, &reference);
+        // The fast renderer moves surfaces by 1e-5 of a cell's range of scalars.
         assert!(found <= 1e-4, "view {index}: {found}");
         let whole = soup.fast(&plan, CycleRemedy::Report);
         assert_eq!(cut.counts.crossings, whole.counts.crossings, "view {index}");
@@ -192,7 +194,7 @@ fn a_fan_is_not_cut() {
     let soup = rings();
     let mesh = soup.mesh();
     let renderer = CpuRenderer::new(&mesh, &soup.scalars).unwrap();
-    let plan = plan(views()[0], OpticalModel::DensityEmitter);
+    let plan = plan(views()[0], 1.0);
     let plan = Plan { integration: Integration::Vertex, cycles: CycleRemedy::Cut, ..plan };
     assert!(matches!(renderer.render(&plan, &Silent), Err(RenderError::FanWithCut)));
 }
