@@ -12,13 +12,10 @@
 //! window here holds whole segments, where a window of theirs holds about as many ends of segments, two neighbors sharing one; a wrong order
 //! changes which segment is in front, never what is integrated, and a window of 1 is the order in which cells come.
 
-use std::cmp::Reverse;
-use std::collections::BinaryHeap;
-
 use fearless_simd::{Simd, f32x4, f32x8, prelude::*};
 
 use super::cover::MAX_BLOCKS;
-use super::deal::{Deal, index_of};
+use super::deal::{Deal, index_of, pass_through_window};
 use super::sample::{LANES, Light, Sample};
 use super::sides::Sides;
 use super::tile::Block;
@@ -36,13 +33,12 @@ pub(crate) struct Held {
     window: usize,
     /// Which blocks hold back.
     takes: [bool; MAX_BLOCKS],
-    segments: Vec<Segment>,
+    listed: Segments,
     /// How many may be listed.
     limit: usize,
     /// Those that stay in the window, while others are blended.
-    staying: Vec<Segment>,
+    staying: Segments,
     deal: Deal,
-    nearest: BinaryHeap<Reverse<u64>>,
     /// On which side of isosurfaces the segments begin.
     pub(crate) sides: Sides,
     /// Segments that were held back, and the most of them at one time.
@@ -50,15 +46,21 @@ pub(crate) struct Held {
     pub(crate) most: u64,
 }
 
-/// A segment whose light is known.
-#[derive(Clone, Copy, Debug)]
-struct Segment {
+/// Segments whose light is known; what sorting looks at lies apart.
+#[derive(Debug, Default)]
+struct Segments {
+    places: Vec<Place>,
     /// Linear premultiplied red, green and blue, and the transmittance.
-    light: [f32; 4],
-    /// Of its middle, from where the mesh begins.
-    depth: f32,
+    lights: Vec<[f32; 4]>,
+}
+
+/// Where a segment lies.
+#[derive(Clone, Copy, Debug)]
+struct Place {
     /// Block times lanes, plus lane.
     pixel: u32,
+    /// Of the middle, from where the mesh begins.
+    depth: f32,
 }
 
 /// A pixel while it is blended.
@@ -73,11 +75,10 @@ impl Default for Held {
         Self {
             window: Self::ALL,
             takes: [true; MAX_BLOCKS],
-            segments: Vec::new(),
+            listed: Segments::default(),
             limit: LISTED,
-            staying: Vec::new(),
+            staying: Segments::default(),
             deal: Deal::default(),
-            nearest: BinaryHeap::new(),
             sides: Sides::default(),
             sorted: 0,
             most: 0,
@@ -93,7 +94,7 @@ impl Held {
     pub(crate) fn reset(&mut self, window: usize, all_blocks: bool) {
         self.window = window;
         self.takes = [all_blocks; MAX_BLOCKS];
-        self.segments.clear();
+        self.listed.clear();
         self.limit = LISTED;
         self.sides.clear();
         (self.sorted, self.most) = (0, 0);
@@ -129,7 +130,7 @@ impl Held {
                     covered &= covered - 1;
                     let [r, g, b, transmittance, depth] = [0, 1, 2, 3, 4].map(|i: usize| lanes[i][lane]);
                     let pixel = (block * LANES + lane) as u32;
-                    self.segments.push(Segment { light: [r, g, b, transmittance], depth, pixel });
+                    self.listed.push(Place { pixel, depth }, [r, g, b, transmittance]);
                 }
             },
         );
@@ -138,7 +139,7 @@ impl Held {
     /// Whether the window lists so much that what left it is to be blended.
     #[inline(always)]
     pub(crate) fn is_full(&self) -> bool {
-        self.window != Self::ALL && self.segments.len() >= self.limit
+        self.window != Self::ALL && self.listed.places.len() >= self.limit
     }
 
     /// Blends what has left the window into the blocks; all that is held if `is_last`.
@@ -154,50 +155,48 @@ impl Held {
 
     #[inline(always)]
     fn blend_here<S: Simd>(&mut self, simd: S, termination: f32, blocks: &mut [Block], is_last: bool) {
-        let Self { window, segments, staying, deal, nearest, .. } = self;
-        self.most = self.most.max(segments.len() as u64);
-        let things = (0..).zip(segments.iter()).map(|(index, segment)| (segment.pixel, segment.depth, index));
+        let Self { window, listed, staying, deal, .. } = self;
+        self.most = self.most.max(listed.places.len() as u64);
+        let things = (0..).zip(listed.places.iter()).map(|(index, place)| (place.pixel, place.depth, index));
         deal.fill(blocks.len() * LANES, things);
         staying.clear();
         for (number, keys) in deal.pixels() {
             if keys.is_empty() {
                 continue;
             }
+            pass_through_window(keys, *window);
+            let leave = if is_last { keys.len() } else { keys.len().saturating_sub(*window) };
+            let (leaving, held) = keys.split_at(leave);
             let (block, lane) = (&mut blocks[number / LANES], number % LANES);
             let mut pixel = Pixel::load(simd, block, lane);
-            if keys.len() <= *window {
-                keys.sort_unstable();
-                for &key in &*keys {
-                    if !is_last {
-                        staying.push(segments[index_of(key)]);
-                    } else if !pixel.add(simd, &segments[index_of(key)], termination) {
-                        break;
-                    }
+            for &key in leaving {
+                // What lies behind an opaque pixel is not seen.
+                if pixel.transmittance < termination {
+                    break;
                 }
-                pixel.store(block, lane);
-                continue;
-            }
-            nearest.clear();
-            for &mut key in keys {
-                if nearest.len() == *window
-                    && let Some(Reverse(first)) = nearest.pop()
-                {
-                    pixel.add(simd, &segments[index_of(first)], termination);
-                }
-                nearest.push(Reverse(key));
-            }
-            while let Some(Reverse(key)) = nearest.pop() {
-                if is_last {
-                    pixel.add(simd, &segments[index_of(key)], termination);
-                } else {
-                    // Sorted, so that those of one depth stay in the order in which they came.
-                    staying.push(segments[index_of(key)]);
-                }
+                pixel.add(simd, listed.lights[index_of(key)]);
             }
             pixel.store(block, lane);
+            // Sorted, so that those of one depth stay in the order in which they came.
+            for &key in held {
+                staying.push(listed.places[index_of(key)], listed.lights[index_of(key)]);
+            }
         }
-        std::mem::swap(segments, staying);
-        self.limit = LISTED.max(2 * self.segments.len());
+        std::mem::swap(listed, staying);
+        self.limit = LISTED.max(2 * self.listed.places.len());
+    }
+}
+
+impl Segments {
+    fn clear(&mut self) {
+        self.places.clear();
+        self.lights.clear();
+    }
+
+    #[inline(always)]
+    fn push(&mut self, place: Place, light: [f32; 4]) {
+        self.places.push(place);
+        self.lights.push(light);
     }
 }
 
@@ -221,15 +220,10 @@ impl<S: Simd> Pixel<S> {
         block.transmittance[lane] = self.transmittance;
     }
 
-    /// Puts a segment behind what is there; `false` if the pixel was opaque before.
+    /// Puts a segment behind what is there.
     #[inline(always)]
-    fn add(&mut self, simd: S, segment: &Segment, termination: f32) -> bool {
-        if self.transmittance < termination {
-            return false;
-        }
-        let light = f32x4::load_array(simd, segment.light);
-        self.rgb = f32x4::splat(simd, self.transmittance).mul_add(light, self.rgb);
-        self.transmittance *= segment.light[3];
-        true
+    fn add(&mut self, simd: S, light: [f32; 4]) {
+        self.rgb = f32x4::splat(simd, self.transmittance).mul_add(f32x4::load_array(simd, light), self.rgb);
+        self.transmittance *= light[3];
     }
 }

@@ -123,7 +123,7 @@ struct Scratch {
     records: Vec<Records>,
     tiles: Vec<tile::Pixels>,
     /// One a thread, where pixels sort.
-    held: Mutex<Vec<Box<Held>>>,
+    held: Mutex<Vec<Held>>,
 }
 
 impl CpuRenderer {

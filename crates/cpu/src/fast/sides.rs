@@ -50,11 +50,11 @@ impl Sides {
             depth: [[0.0; LANES]; 2],
             rank: [[0.0; LANES]; 2],
         };
-        let ranks = cell.own_ranks(simd, sample);
-        for end in 0..2 {
-            sample.depth[end].store_slice(&mut ends.depth[end]);
-            ranks[end].store_slice(&mut ends.rank[end]);
-        }
+        let [front, back] = cell.own_ranks(simd, sample);
+        front.store_slice(&mut ends.rank[0]);
+        back.store_slice(&mut ends.rank[1]);
+        sample.depth[0].store_slice(&mut ends.depth[0]);
+        sample.depth[1].store_slice(&mut ends.depth[1]);
         self.ends.push(ends);
     }
 

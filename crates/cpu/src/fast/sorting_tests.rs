@@ -266,20 +266,23 @@ fn surfaces_and_light_are_as_in_an_exact_order() {
     }
 }
 
-/// Where no order of cells is right there is only the reference, whose surfaces stand elsewhere by rounding: rays along a rim may differ.
+/// Where no order of cells is right there is only the reference. Rounding moves surfaces by some 1e-5 of a cell there, and with them where one
+/// color ends and another begins; a surface that is lost, doubled or in the wrong place shows a hundred times as much. Rays
+/// along a rim may.
 #[test]
 fn surfaces_without_an_order_are_the_reference() {
+    const MOVED: f32 = 2e-4;
     for (name, sample) in [("soup", soup(5, 2)), ("grid", grid(6, 0.2, 9))] {
         for distance in [3.0, 1e4, 1e6, 1e8] {
             let eye = DVec3::new(0.5, 0.4, 0.7).normalize() * distance;
-            for surfaces in [
-                vec![surface(0.4, 1.0, SurfaceShading::None)],
-                [0.3, 0.5, 0.6].map(|v| surface(v, 0.4, SurfaceShading::None)).to_vec(),
-            ] {
+            for opacity in [1.0, 0.4] {
+                let surfaces = [0.3, 0.5, 0.6].map(|value| surface(value, opacity, SurfaceShading::None));
                 let plan = with_surfaces(plan(from(eye), OrderMethod::PerPixel), &surfaces, IsosurfaceMethod::Exact);
-                let (worst, count) = difference(&draw(&sample, &plan).0, &draw_slowly(&sample, &plan));
-                println!("{name} from {distance:e}: off by {worst:e}, {count} pixels");
-                assert!(count <= 4, "{name} from {distance:e}: off by {worst:e}, {count} of 1845 pixels");
+                let (found, expected) = (draw(&sample, &plan).0, draw_slowly(&sample, &plan));
+                let is_off = |(a, b): &(&[f32; 4], &[f32; 4])| a.iter().zip(*b).any(|(a, b)| (a - b).abs() > MOVED);
+                let count = found.pixels().iter().zip(expected.pixels()).filter(is_off).count();
+                let worst = difference(&found, &expected).0;
+                assert!(count <= 3, "{name} from {distance:e}: off by {worst:e}, {count} of 1845 pixels");
             }
         }
     }

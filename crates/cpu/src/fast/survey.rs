@@ -23,14 +23,14 @@ pub(crate) struct Sorting<'a> {
     /// Whether only blocks in which cells in rings are drawn do so.
     rings_alone: bool,
     /// Memory for a tile, one a thread.
-    pool: &'a Mutex<Vec<Box<Held>>>,
+    pool: &'a Mutex<Vec<Held>>,
 }
 
 impl<'a> Sorting<'a> {
     /// What a plan asks for; `None` if cells are blended as they come.
     ///
     /// - `rings_sort`: whether there are rings whose pixels are to be sorted
-    pub(crate) fn of(plan: &Plan, rings_sort: bool, pool: &'a Mutex<Vec<Box<Held>>>) -> Option<Self> {
+    pub(crate) fn of(plan: &Plan, rings_sort: bool, pool: &'a Mutex<Vec<Held>>) -> Option<Self> {
         let (window, rings_alone) = match plan.order.pixel_sort() {
             // One that is held back and given up when the next one comes changes nothing.
             PixelSort::None | PixelSort::Window(0 | 1) => {
@@ -46,11 +46,11 @@ impl<'a> Sorting<'a> {
     }
 
     /// Gives a tile's memory back.
-    pub(crate) fn give_back(&self, held: Box<Held>) {
+    pub(crate) fn give_back(&self, held: Held) {
         self.pool.lock().unwrap_or_else(PoisonError::into_inner).push(held);
     }
 
-    fn memory(&self) -> Box<Held> {
+    fn memory(&self) -> Held {
         let mut held = self.pool.lock().unwrap_or_else(PoisonError::into_inner).pop().unwrap_or_default();
         held.reset(self.window, !self.rings_alone);
         held
@@ -67,7 +67,7 @@ impl Job<'_> {
         index: usize,
         pixels: &Pixels,
         covers: &mut CoverList,
-    ) -> Option<Box<Held>> {
+    ) -> Option<Held> {
         simd.vectorize(
             #[inline(always)]
             || {

@@ -67,7 +67,7 @@ struct Canvas<'a> {
     pixels: &'a mut Pixels,
     covers: CoverList,
     /// Segments that are held back, where any are.
-    held: Option<Box<Held>>,
+    held: Option<Held>,
     done: Done,
 }
 
@@ -198,7 +198,7 @@ impl Job<'_> {
                     let cell = CellOptics { pieces: &pieces, fan, table };
                     let with_effects = self.effects_of(records, record, &mut surfaces);
                     self.draw_cell::<S, I, M>(simd, records, record, cell, with_effects.as_ref(), &mut canvas);
-                    if let Some(held) = canvas.held.as_deref_mut().filter(|held| held.is_full()) {
+                    if let Some(held) = canvas.held.as_mut().filter(|held| held.is_full()) {
                         held.blend(simd, self.plan.termination, &mut canvas.pixels.blocks, false);
                     }
                 }
@@ -262,7 +262,7 @@ impl Job<'_> {
         let blocks = Blocks::find(simd, records, record, range, self.space, covers);
         for index in 0..blocks.len() {
             let Some((block, sample)) = blocks.get(simd, covers, index) else { continue };
-            brush.blend::<S, I, M>(simd, sample, block, pixels, held.as_deref_mut(), done);
+            brush.blend::<S, I, M>(simd, sample, block, pixels, held.as_mut(), done);
         }
     }
 }
