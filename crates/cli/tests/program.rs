@@ -309,7 +309,8 @@ fn orders_are_chosen_and_their_worth_is_said() {
     let run = Run::new();
     run.write("a.toml", "[mesh]\npath = \"mesh.vtu\"\n[quality]\norder = \"k-buffer\"\nwindow = 3\n");
     for (options, said) in [
-        (&[][..], &["order       power: one key", "guarantee   proven for all 1 faces"][..]),
+        (&[][..], &["order       mpvo: the mesh is convex", "guarantee   exact: the mesh is convex"][..]),
+        (&["--order", "power"], &["order       power: asked for", "guarantee   proven for all 1 faces"]),
         (
             &["--order", "auto", "--model", "emission"],
             &["order       none", "guarantee   nothing depends on the order"],
