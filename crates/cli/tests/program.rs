@@ -90,14 +90,7 @@ fn a_mesh_becomes_a_picture_and_the_choices_are_said() {
     let out = run.good(&["render", "mesh.vtu", "--size", "40x30", "-o", "a.png", "-o", "a.exr"]);
     has(
         &out,
-        &[
-            "2 tetrahedra",
-            "field       s, 0 to 4",
-            "first scalar point array",
-            "looks along -z",
-            "exact",
-            "power: one key",
-        ],
+        &["2 tetrahedra", "field       s, 0 to 4", "first scalar point array", "looks along -z", "exact", "mpvo"],
     );
     has(
         &out,
