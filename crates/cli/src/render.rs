@@ -89,6 +89,9 @@ impl Job<'_> {
         let rendered = field.render(&plan, bar)?;
         bar.clear();
         report.rendered(&rendered, &field.order_worth(&plan, &rendered)?);
+        if let Some(warning) = field.keep_heights(&completed, &plan)? {
+            report.warn(&warning);
+        }
         if let Some(warning) = warn_of_non_finite(&rendered.image) {
             report.warn(&warning);
         } else if is_blank(&rendered.image) {

@@ -76,22 +76,28 @@ fn convex_and_delaunay_or_not() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path();
     let corner = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
-    let with = |apex: f64| [corner.to_vec(), vec![[apex; 3]]].concat();
+    let with = |apex: [f64; 3]| [corner.to_vec(), vec![apex]].concat();
     // The sphere around the first has its middle at (1/2, 1/2, 1/2) and meets the diagonal again at (1, 1, 1).
-    for (apex, is_convex, is_delaunay) in [(0.9, true, false), (1.5, false, true), (0.5, true, false)] {
+    // The mesh is convex where the way from the origin to the apex leads through the face between.
+    for (apex, is_convex, is_delaunay) in [
+        ([0.9; 3], true, false),
+        ([1.5; 3], true, true),
+        ([1.0, 1.0, -0.5], false, true),
+        ([0.5, 0.6, -0.05], false, false),
+    ] {
         write_mesh(path, &with(apex), &[[0, 1, 2, 3], [1, 2, 3, 4]]);
         let report = json(path, &["mesh.vtk", "--size", "16", "--order", "none"]);
         assert_eq!(
             (&report["convex"], &report["delaunay"]["proven"]),
             (&is_convex.into(), &is_delaunay.into()),
-            "{apex}"
+            "{apex:?}"
         );
         assert_eq!(report["one_key"].is_null(), !is_delaunay, "no heights were asked for");
         let report = json(path, &["mesh.vtk", "--size", "16", "--order", "none", "--heights"]);
         assert_eq!(report["one_key"]["proven"], true, "two cells can always be lifted");
     }
     // The second cell is folded back into the first.
-    write_mesh(path, &with(0.1), &[[0, 1, 2, 3], [1, 2, 3, 4]]);
+    write_mesh(path, &with([0.1; 3]), &[[0, 1, 2, 3], [1, 2, 3, 4]]);
     let report = json(path, &["mesh.vtk", "--size", "16", "--heights", "--order", "none"]);
     assert_eq!((&report["faces"]["folded"], &report["one_key"]["proven"]), (&1.into(), &false.into()));
 }
@@ -166,4 +172,46 @@ fn what_cannot_be_judged_is_an_error() {
     write_mesh(path, &[[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [1.0, 1.0, 0.0]], &[[0, 1, 2, 3]]);
     let output = tetrascope(path, &["check", "mesh.vtk"]);
     assert_eq!(output.status.code(), Some(1), "nothing has a volume");
+}
+
+/// Two cells that are convex together and not Delaunay: heights have to be looked for.
+#[test]
+fn heights_are_kept_beside_the_mesh() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path();
+    let points = [[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0], [0.9; 3]];
+    write_mesh(path, &points, &[[0, 1, 2, 3], [1, 2, 3, 4]]);
+    let render = |options: &[&str]| {
+        let output = tetrascope(path, &[&["render", "mesh.vtk", "--size", "8"], options].concat());
+        assert_eq!(output.status.code(), Some(0));
+        let text = |bytes: Vec<u8>| String::from_utf8(bytes).unwrap();
+        (text(output.stdout), text(output.stderr))
+    };
+    let kept = path.join("mesh.vtk.heights");
+    render(&["--order", "power"]);
+    assert!(!kept.exists(), "nobody asked");
+    let (out, errors) = render(&["--order", "power", "--keep-heights"]);
+    assert!(out.contains("proven for all 1 faces") && errors.is_empty(), "{out}{errors}");
+    let bytes = std::fs::read(&kept).unwrap();
+    // With heights that are proven, power is what auto takes.
+    let (out, _) = render(&["--keep-heights", "--write-scene", "a.toml"]);
+    assert!(out.contains("order       power: one key a cell is proven"), "{out}");
+    let written = std::fs::read_to_string(path.join("a.toml")).unwrap();
+    assert!(written.contains("order = \"power\"") && written.contains("keep_heights = true"), "{written}");
+    assert_eq!(std::fs::read(&kept).unwrap(), bytes);
+    // Those of another mesh are told and replaced.
+    let mut lifted = bytes.clone();
+    let count = bytes.len() - 5 * 8;
+    lifted[count..].copy_from_slice(&[0.0, 0.0, 0.0, 0.0, -9.0_f64].map(f64::to_le_bytes).concat());
+    for (other, said) in [
+        (lifted, "do not order this mesh (1 of 1 faces are violated)"),
+        (bytes[..bytes.len() - 1].to_vec(), "ends too early"),
+        (b"something else".to_vec(), "no file of heights"),
+    ] {
+        std::fs::write(&kept, other).unwrap();
+        let (out, errors) = render(&["--order", "power", "--keep-heights"]);
+        assert!(errors.contains("mesh.vtk.heights") && errors.contains(said), "{said}: {errors}");
+        assert!(out.contains("proven for all 1 faces"), "{out}");
+        assert_eq!(std::fs::read(&kept).unwrap(), bytes, "{said}");
+    }
 }

@@ -90,14 +90,7 @@ fn a_mesh_becomes_a_picture_and_the_choices_are_said() {
     let out = run.good(&["render", "mesh.vtu", "--size", "40x30", "-o", "a.png", "-o", "a.exr"]);
     has(
         &out,
-        &[
-            "2 tetrahedra",
-            "field       s, 0 to 4",
-            "first scalar point array",
-            "looks along -z",
-            "exact",
-            "power: one key",
-        ],
+        &["2 tetrahedra", "field       s, 0 to 4", "first scalar point array", "looks along -z", "exact", "mpvo"],
     );
     has(
         &out,
@@ -309,7 +302,8 @@ fn orders_are_chosen_and_their_worth_is_said() {
     let run = Run::new();
     run.write("a.toml", "[mesh]\npath = \"mesh.vtu\"\n[quality]\norder = \"k-buffer\"\nwindow = 3\n");
     for (options, said) in [
-        (&[][..], &["order       power: one key", "guarantee   proven for all 1 faces"][..]),
+        (&[][..], &["order       mpvo: the mesh is convex", "guarantee   exact: the mesh is convex"][..]),
+        (&["--order", "power"], &["order       power: asked for", "guarantee   proven for all 1 faces"]),
         (
             &["--order", "auto", "--model", "emission"],
             &["order       none", "guarantee   nothing depends on the order"],

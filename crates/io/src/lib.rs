@@ -28,6 +28,7 @@
 mod bytes;
 mod error;
 mod foreign;
+mod heights;
 mod open;
 mod picture;
 mod plot3d;
@@ -35,6 +36,7 @@ mod read;
 mod vtk;
 
 pub use error::IoError;
+pub use heights::{read_heights, write_heights};
 pub use open::{read_mesh, readers};
 pub use picture::{read_exr, write_exr, write_image, write_png};
 pub use read::{Loaded, MeshReader, Source};

@@ -110,7 +110,11 @@ mod tests {
         assert!(!convex(&far, &[[0, 1, 2, 3], [4, 5, 6, 7]]), "two parts");
         let apex = |p: DVec3| [corner.to_vec(), vec![p]].concat();
         assert!(convex(&apex(DVec3::splat(0.4)), &[[0, 1, 2, 3], [1, 2, 3, 4]]));
-        assert!(!convex(&apex(DVec3::splat(4.0)), &[[0, 1, 2, 3], [1, 2, 3, 4]]), "a tip beyond the faces' planes");
+        assert!(convex(&apex(DVec3::splat(4.0)), &[[0, 1, 2, 3], [1, 2, 3, 4]]), "a tip over the middle of the face");
+        assert!(
+            !convex(&apex(DVec3::new(1.0, 1.0, -0.5)), &[[0, 1, 2, 3], [1, 2, 3, 4]]),
+            "a tip beyond the faces' planes"
+        );
         assert!(!convex(&apex(-DVec3::splat(1.0)), &[[0, 1, 2, 3], [0, 1, 2, 4]]), "bent inwards");
         assert!(!convex(&[], &[]));
     }
@@ -137,7 +141,7 @@ mod tests {
             (0..8).map(|i| DVec3::new(f64::from(i & 1), f64::from(i >> 1 & 1), f64::from(i >> 2))).collect();
         let five = [[0, 3, 5, 6], [1, 0, 3, 5], [2, 0, 3, 6], [4, 0, 5, 6], [7, 3, 5, 6]];
         assert!(convex(&cube, &five));
-        assert!(!convex(&cube, &five[..4]), "a corner is missing");
+        assert!(convex(&cube, &five[..4]), "a corner is cut off by a plane");
         assert!(!convex(&cube, &five[1..]), "the inside is missing: the parts touch in edges");
     }
 }

@@ -24,6 +24,8 @@ pub struct MeshVisibility {
     quick: OnceLock<Arc<Power>>,
     power: OnceLock<Arc<Power>>,
     heights: OnceLock<Arc<Vec<f64>>>,
+    /// Those that were looked for, since the others are not proven.
+    found: OnceLock<Vec<f64>>,
 }
 
 /// The cheapest order that is right for a mesh, and why.
@@ -73,9 +75,14 @@ impl MeshVisibility {
                 return Arc::clone(quick);
             }
             let adjacency = self.adjacency(cells);
-            let heights = Arc::new(Heights::solve(cells, adjacency, Budget::default()).values);
-            Arc::new(Power::with_heights(cells, adjacency, &heights))
+            let heights = self.found.get_or_init(|| Heights::solve(cells, adjacency, Budget::default()).values);
+            Arc::new(Power::with_heights(cells, adjacency, heights))
         })
+    }
+
+    /// The heights that [`Self::power`] looked for, one a point; `None` if it did not have to, or was not asked yet.
+    pub fn found_heights(&self) -> Option<&[f64]> {
+        self.found.get().map(Vec::as_slice)
     }
 
     /// What is proven of the heights given, or of `|p|²` without any: whether the mesh is Delaunay.

@@ -30,6 +30,7 @@
 
 mod check;
 mod error;
+mod heights;
 mod order_worth;
 mod render;
 mod volume;
@@ -47,7 +48,9 @@ pub use tetrascope_integrate::{
     SmoothMaps, SurfaceRole, SurfaceShading, Table2d, Table3d, TableDomain, TableSettings, TexelAxis, TransferFunction,
     deviation,
 };
-pub use tetrascope_io::{IoError, Loaded, read_exr, read_mesh, readers, write_exr, write_image, write_png};
+pub use tetrascope_io::{
+    IoError, Loaded, read_exr, read_heights, read_mesh, readers, write_exr, write_heights, write_image, write_png,
+};
 pub use tetrascope_mesh::{
     ArrayValues, CellKind, Cells, ChordLengths, DataArray, Dataset, Decomposition, MeshError, StructuredBlock, TetMesh,
     UnstructuredCells, chord_lengths, decompose, vertex_gradients,

@@ -20,15 +20,31 @@ pub struct OrderWorth {
 impl VolumeField<'_> {
     /// The plan of a completed scene for this mesh: an order that the scene leaves open is settled, in `completed` too.
     ///
-    /// What is learned of the mesh for that (whether it is convex, whether it is Delaunay) is kept for the pictures.
+    /// What is learned of the mesh for that (whether it is convex, whether it is Delaunay) is kept for the pictures. If the scene says so, heights
+    /// are read from the file beside the mesh, provided that the renderer is not made yet; where they do not fit, `completed` has a
+    /// warning.
     ///
     /// # Errors
     /// [`Error::Scene`] as [`Scene::plan`](tetrascope_scene::Scene::plan), [`Error::Render`] as [`Self::renderer`].
     pub fn plan(&self, completed: &mut Completed) -> Result<Plan, Error> {
+        let keeps_heights = completed.file.quality.keep_heights == Some(true);
+        if keeps_heights && completed.scene.backend == Backend::Cpu {
+            completed.warnings.extend(self.read_heights()?);
+        }
         if completed.leaves_order_open() {
             let renderer = self.renderer()?;
-            let choice = renderer.visibility().choose(renderer.cells());
-            completed.settle_order(choice.method, choice.reason);
+            let (cells, visibility) = (renderer.cells(), renderer.visibility());
+            if keeps_heights && visibility.is_convex(cells) {
+                // Looking for heights takes longer than many frames; those that are kept are looked for once.
+                visibility.power(cells);
+            }
+            let is_proven = visibility.found_heights().is_some() && visibility.power(cells).certificate().is_exact();
+            if is_proven && visibility.is_convex(cells) {
+                completed.settle_order(OrderMethod::Power, "one key a cell is proven to be exact");
+            } else {
+                let choice = visibility.choose(cells);
+                completed.settle_order(choice.method, choice.reason);
+            }
         }
         let mut plan = completed.scene.plan()?;
         plan.decisions.clone_from(&completed.decisions);

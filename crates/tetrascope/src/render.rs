@@ -64,6 +64,7 @@ pub fn render_volume(volume: &Volume, scene: &SceneFile, progress: &dyn Progress
     let chosen = start.elapsed();
     let rendered = field.render(&plan, progress)?;
     let order = field.order_worth(&plan, &rendered)?;
+    completed.warnings.extend(field.keep_heights(&completed, &plan)?);
 
     let mut warnings = volume.warnings.clone();
     warnings.extend(volume.decomposition.counts.findings());

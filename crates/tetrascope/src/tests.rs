@@ -109,3 +109,35 @@ fn a_blank_picture_says_why() {
     let picture = render_scene(&scene, ".".as_ref(), &Silent).unwrap();
     assert!(picture.warnings.iter().any(|w| w.contains("whole range")), "{:?}", picture.warnings);
 }
+
+#[test]
+fn an_open_order_is_settled_for_the_mesh() {
+    // The sample bulges inwards at no place but is no Delaunay mesh.
+    let picture = render_scene(&small_scene(), ".".as_ref(), &Silent).unwrap();
+    let volume = Volume::sample().unwrap();
+    let field = volume.field(None).unwrap();
+    let renderer = field.renderer().unwrap();
+    let choice = renderer.visibility().choose(renderer.cells());
+    assert_eq!(picture.plan.order, choice.method);
+    assert_eq!(picture.completed.quality.order, Choice::Named(choice.method));
+    let said = picture.plan.decisions.iter().find(|d| d.subject == "order").unwrap();
+    assert_eq!((said.choice.as_str(), said.reason.as_str()), (choice.method.to_string().as_str(), choice.reason));
+    assert!(picture.order.summary.contains("exact"), "{}", picture.order.summary);
+    assert!(picture.order.warnings.is_empty() && picture.order.rings.is_none());
+}
+
+#[test]
+fn power_that_is_not_proven_is_a_warning_with_figures() {
+    // Whether it is or not, the picture says what the certificate does.
+    let volume = Volume::from_dataset(rings_sample(4), "rings").unwrap();
+    let mut scene = small_scene();
+    scene.quality.order = Choice::Named(OrderMethod::Power);
+    let picture = render_volume(&volume, &scene, &Silent).unwrap();
+    let field = volume.field(None).unwrap();
+    let renderer = field.renderer().unwrap();
+    let certificate = renderer.visibility().power(renderer.cells()).certificate();
+    let warned =
+        picture.warnings.iter().any(|w| w.contains("is not proven for this mesh") && w.contains("faces between cells"));
+    assert_eq!(warned, !certificate.is_exact(), "{:?}", picture.warnings);
+    assert_eq!(picture.order.summary.contains("proven for all"), certificate.is_exact());
+}
