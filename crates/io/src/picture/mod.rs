@@ -10,6 +10,7 @@ use tetrascope_view::LinearImage;
 
 pub use exr_file::{read_exr, write_exr};
 pub use png_file::write_png;
+pub(crate) use whole_file::write_whole;
 
 use crate::{IoError, read::extension};
 

@@ -13,7 +13,7 @@ use crate::IoError;
 /// A file that was there before is replaced in one step. The new one has the permissions of any new file (the system's
 /// mask applies). A symbolic link is followed. Should anything fail, the temporary file is removed and what was at `path`
 /// stays as it was.
-pub(super) fn write_whole(path: &Path, bytes: &[u8]) -> Result<(), IoError> {
+pub(crate) fn write_whole(path: &Path, bytes: &[u8]) -> Result<(), IoError> {
     try_write(path, |file| file.write_all(bytes))
         .map_err(|error| IoError::Write { path: path.to_owned(), problem: error.to_string() })
 }

@@ -171,10 +171,8 @@ impl BspTree {
         if surely == Some(false) {
             return false;
         }
-        let seen = |face: u32| Seen {
-            points: self.faces[face as usize].points,
-            eye_side: view.eye_sides[face as usize],
-        };
+        let seen =
+            |face: u32| Seen { points: self.faces[face as usize].points, eye_side: view.eye_sides[face as usize] };
         let (front, back) = (seen(exit.face), seen(entry.face));
         // Faces that were never split were put on the sides of planes without rounding: their ranks decide.
         let is_ranked = self.is_whole[exit.face as usize] && self.is_whole[entry.face as usize];
@@ -231,7 +229,8 @@ impl BspTree {
             .map(|faces| {
                 let mut sightings = vec![Vec::new(); 6];
                 for &face in faces {
-                    let (own, ranks, eye_side) = (&self.faces[face as usize], ranks[face as usize], eye_sides[face as usize]);
+                    let (own, ranks, eye_side) =
+                        (&self.faces[face as usize], ranks[face as usize], eye_sides[face as usize]);
                     sheets.project(&own.points, |rectangle, corners| {
                         let turn = if Sheets::is_mirror(rectangle.sheet) { -eye_side } else { eye_side };
                         let flat = Flat::new(corners, own.numbers, turn);

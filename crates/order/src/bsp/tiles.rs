@@ -144,7 +144,10 @@ fn seen_through(sheet: usize, points: &[DVec3; 3]) -> Option<(Rectangle, [[f64; 
     let size = own.iter().map(|p| p.abs().max_element()).fold(0.0, f64::max);
     if polygon.iter().any(|p| p.z < NEAREST * size) {
         // So near the eye that its quotients say nothing.
-        return Some((Rectangle { sheet: sheet as u8, is_whole: false, low: [-2.0; 2], high: [2.0; 2] }, [[0.0; 2]; 3]));
+        return Some((
+            Rectangle { sheet: sheet as u8, is_whole: false, low: [-2.0; 2], high: [2.0; 2] },
+            [[0.0; 2]; 3],
+        ));
     }
     let seen = polygon.iter().map(|p| [p.x / p.z, p.y / p.z]);
     Some((Rectangle::around(seen, sheet, false).widened(CLIPPED_MARGIN), [[0.0; 2]; 3]))
