@@ -12,6 +12,7 @@ mod invariants;
 mod isosurfaces;
 mod light;
 mod methods;
+mod orders;
 mod plan;
 mod real_meshes;
 mod references;

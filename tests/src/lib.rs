@@ -5,5 +5,6 @@ pub mod compare;
 pub mod golden;
 pub mod meshes;
 pub mod pictures;
+pub mod shapes;
 pub mod shared;
 pub mod surfaces;

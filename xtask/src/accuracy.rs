@@ -1,11 +1,13 @@
-//! `cargo xtask accuracy`: the error of every integration method against the exact one, with the time that an evaluation takes.
+//! `cargo xtask accuracy`: the error of every integration method against the exact one, with the time that an evaluation takes; and the
+//! pixels that every visibility order gets wrong.
 //!
-//! Errors are those of single segments, the largest of the four channels; scalars run from 0 to 1 and lengths from 1/1000 to 1/2, evenly
+//! Errors of integration are those of single segments, the largest of the four channels; scalars run from 0 to 1 and lengths from 1/1000 to 1/2, evenly
 //! over their exponents. Coarse cells have any two scalars at their ends, fine ones such that lie at most 1/20 apart. Times are
 //! of the f64 functions along a ray; the renderers have others.
 
 mod families;
 mod methods;
+mod orders;
 mod table;
 
 use std::fs;
@@ -26,12 +28,22 @@ pub(crate) struct Args {
     /// Segments for each number.
     #[arg(long, default_value_t = 40_000, value_parser = clap::value_parser!(u32).range(1..=10_000_000))]
     samples: u32,
-    /// Only methods whose names contain this, such as "table-3d".
+    /// Only methods, or with --part orders meshes, whose names contain this, such as "table-3d" or "fin".
     #[arg(long, default_value = "")]
     only: String,
-    /// Put the tables into docs/accuracy.md, between its marks.
+    /// Integration methods or visibility orders alone.
+    #[arg(long)]
+    part: Option<Part>,
+    /// Put the tables into docs/accuracy.md and docs/orders.md, between their marks.
     #[arg(long)]
     write: bool,
+}
+
+/// One half of what is measured.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
+enum Part {
+    Integration,
+    Orders,
 }
 
 /// Sizes of cells: a name, and how far apart the scalars at the ends of a segment are at most.
@@ -47,39 +59,64 @@ const TIMED_SEGMENTS: u32 = 2_000;
 /// Times of which the median is taken.
 const REPEATS: usize = 5;
 
-/// Where the tables go.
-const TEXT: &str = "docs/accuracy.md";
+/// Where the tables go, and the marks between which.
+const INTEGRATION_TEXT: &str = "docs/accuracy.md";
+const ORDERS_TEXT: &str = "docs/orders.md";
 const BEGIN: &str = "<!-- tables: begin -->\n";
 const END: &str = "<!-- tables: end -->";
 
-/// Prints a table for every optical model and size of cells.
+/// Prints a table for every optical model and size of cells, and two for the visibility orders.
 pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     if args.write && !args.only.is_empty() {
-        return Err("--write needs all methods; leave out --only".into());
+        return Err("--write needs all methods and meshes; leave out --only".into());
     }
-    let mut text = String::new();
-    for model in OpticalModel::ALL {
-        for table in tables(model, args)? {
-            let table = table.to_string();
-            println!("{table}");
-            text.push_str(&table);
-            text.push('\n');
+    if args.part != Some(Part::Orders) {
+        let mut text = String::new();
+        for model in OpticalModel::ALL {
+            for table in tables(model, args)? {
+                let table = table.to_string();
+                println!("{table}");
+                text.push_str(&table);
+                text.push('\n');
+            }
+        }
+        if args.write {
+            put_into(INTEGRATION_TEXT, &text)?;
         }
     }
-    if args.write {
-        let path = crate::root().join(TEXT);
-        let old = fs::read_to_string(&path).map_err(|e| format!("{}: {e}", path.display()))?;
-        fs::write(&path, replaced(&old, &text)?)?;
-        println!("written: {TEXT}");
+    if args.part != Some(Part::Integration) {
+        let data = crate::root().join("../shared/data");
+        let data = data.is_dir().then_some(data);
+        if data.is_none() {
+            println!("the folder ../shared is not there: the built-in sample alone");
+        }
+        if args.write && data.is_none() {
+            return Err("--write needs the meshes of ../shared, which is not there".into());
+        }
+        let text = orders::tables(data.as_deref(), &args.only)?;
+        println!("{text}");
+        if args.write {
+            put_into(ORDERS_TEXT, &text)?;
+        }
     }
     Ok(())
 }
 
-/// The text with other tables between its marks.
-fn replaced(text: &str, tables: &str) -> Result<String, Failure> {
-    let parts = text.split_once(BEGIN).and_then(|(before, rest)| Some((before, rest.split_once(END)?.1)));
-    let (before, after) = parts.ok_or_else(|| format!("{TEXT} lacks the marks {} and {END}", BEGIN.trim()))?;
-    Ok(format!("{before}{BEGIN}\n{tables}{END}{after}"))
+/// Replaces what a text has between its marks.
+fn put_into(name: &str, tables: &str) -> Result<(), Failure> {
+    let path = crate::root().join(name);
+    let old = fs::read_to_string(&path).map_err(|e| format!("{}: {e}", path.display()))?;
+    let new = replaced(&old, tables).ok_or_else(|| format!("{name} lacks the marks {} and {END}", BEGIN.trim()))?;
+    fs::write(&path, new)?;
+    println!("written: {name}");
+    Ok(())
+}
+
+/// The text with other tables between its marks; `None` if it has no marks.
+fn replaced(text: &str, tables: &str) -> Option<String> {
+    let (before, rest) = text.split_once(BEGIN)?;
+    let (_, after) = rest.split_once(END)?;
+    Some(format!("{before}{BEGIN}\n{tables}{END}{after}"))
 }
 
 /// The errors of all methods for a model: coarse cells, then fine ones.
@@ -163,12 +200,12 @@ mod tests {
     fn tables_go_between_the_marks() {
         let text = format!("before\n{BEGIN}old\n{END}\nafter\n");
         assert_eq!(replaced(&text, "new\n").unwrap(), format!("before\n{BEGIN}\nnew\n{END}\nafter\n"));
-        assert!(replaced("no marks", "new").unwrap_err().to_string().contains("lacks the marks"));
+        assert!(replaced("no marks", "new").is_none());
     }
 
     #[test]
     fn every_method_is_measured_for_every_family() {
-        let args = Args { samples: 50, only: "average".to_owned(), write: false };
+        let args = Args { samples: 50, only: "average".to_owned(), part: None, write: false };
         for table in tables(OpticalModel::DensityEmitter, &args).unwrap() {
             assert_eq!(table.columns.len(), 5);
             assert_eq!(table.rows.len(), 1, "{}", table.title);

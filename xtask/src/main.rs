@@ -27,7 +27,7 @@ enum Task {
     Golden(golden::Args),
     /// Milliseconds a frame of the CPU renderer
     Bench(bench::Args),
-    /// The error of every integration method against the exact one
+    /// The error of every integration method and of every visibility order against the exact ones
     Accuracy(accuracy::Args),
     /// The pictures of docs/gallery.md
     Figures(figures::Args),

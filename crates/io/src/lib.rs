@@ -3,7 +3,7 @@
 //! [`read_mesh`] finds the reader by the file's content, then by its extension, and gives a [`Loaded`]: the dataset as the
 //! file has it and what was odd about it. Memory is never reserved from a count that the file merely declares.
 //! [`write_png`] and [`write_exr`] write to a temporary file beside the target and rename it, so that a failed run leaves
-//! no half-written picture.
+//! no half-written picture; [`write_heights`] does the same for what the power order found out about a mesh.
 //!
 //! ```no_run
 //! use std::path::Path;

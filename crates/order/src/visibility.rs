@@ -76,7 +76,7 @@ impl MeshVisibility {
             }
             let adjacency = self.adjacency(cells);
             let heights = self.found.get_or_init(|| Heights::solve(cells, adjacency, Budget::default()).values);
-            Arc::new(Power::with_heights(cells, adjacency, heights))
+            Arc::new(self.with_gaps(Power::with_heights(cells, adjacency, heights), cells))
         })
     }
 
@@ -93,23 +93,38 @@ impl MeshVisibility {
     fn quick_power(&self, cells: Cells<'_>) -> &Arc<Power> {
         self.quick.get_or_init(|| {
             let adjacency = self.adjacency(cells);
-            Arc::new(match self.heights.get() {
+            let power = match self.heights.get() {
                 Some(heights) => Power::with_heights(cells, adjacency, heights),
                 None => Power::with_adjacency(cells, adjacency, Budget { visits_per_face: 0 }),
-            })
+            };
+            Arc::new(self.with_gaps(power, cells))
         })
+    }
+
+    fn with_gaps(&self, power: Power, cells: Cells<'_>) -> Power {
+        if power.certificate().is_exact() {
+            power.prove_gaps(cells, self.adjacency(cells), self.is_convex(cells))
+        } else {
+            power
+        }
     }
 
     /// The cheapest order that is right for the mesh from everywhere, but for cells in rings.
     ///
-    /// No heights are looked for: that takes longer than many frames. Those given count.
+    /// No heights are looked for: that takes longer than many frames. Those given count, and those that [`Self::power`] has found.
     pub fn choose(&self, cells: Cells<'_>) -> OrderChoice {
+        let known = self.power.get().unwrap_or_else(|| self.quick_power(cells));
+        if known.certificate().is_exact_across_gaps() {
+            let reason = if self.is_convex(cells) {
+                "one key a cell is proven to be exact"
+            } else {
+                "one key a cell is proven to be exact, across gaps too"
+            };
+            return OrderChoice { method: OrderMethod::Power, reason };
+        }
         if !self.is_convex(cells) {
             let reason = "the mesh is not convex: neighbors by their faces, and across gaps by the boundary's";
             return OrderChoice { method: OrderMethod::BspXmpvo, reason };
-        }
-        if self.quick_certificate(cells).is_exact() {
-            return OrderChoice { method: OrderMethod::Power, reason: "one key a cell is proven to be exact" };
         }
         OrderChoice { method: OrderMethod::Mpvo, reason: "the mesh is convex: neighbors by the planes between them" }
     }

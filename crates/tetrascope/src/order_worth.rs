@@ -34,17 +34,12 @@ impl VolumeField<'_> {
         if completed.leaves_order_open() {
             let renderer = self.renderer()?;
             let (cells, visibility) = (renderer.cells(), renderer.visibility());
-            if keeps_heights && visibility.is_convex(cells) {
+            if keeps_heights {
                 // Looking for heights takes longer than many frames; those that are kept are looked for once.
                 visibility.power(cells);
             }
-            let is_proven = visibility.found_heights().is_some() && visibility.power(cells).certificate().is_exact();
-            if is_proven && visibility.is_convex(cells) {
-                completed.settle_order(OrderMethod::Power, "one key a cell is proven to be exact");
-            } else {
-                let choice = visibility.choose(cells);
-                completed.settle_order(choice.method, choice.reason);
-            }
+            let choice = visibility.choose(cells);
+            completed.settle_order(choice.method, choice.reason);
         }
         let mut plan = completed.scene.plan()?;
         plan.decisions.clone_from(&completed.decisions);
@@ -77,7 +72,13 @@ impl VolumeField<'_> {
             OrderMethod::Power => {
                 let certificate = visibility.power(cells).certificate();
                 if certificate.is_exact() {
-                    let gaps = if visibility.is_convex(cells) { "" } else { across_gaps };
+                    let gaps = if visibility.is_convex(cells) {
+                        ""
+                    } else if certificate.is_exact_across_gaps() {
+                        ", and across the gaps of the mesh"
+                    } else {
+                        across_gaps
+                    };
                     format!("proven for all {} faces between cells{gaps}", certificate.faces)
                 } else {
                     worth.warnings.push(unproven(&certificate));
@@ -99,7 +100,7 @@ impl VolumeField<'_> {
 }
 
 fn unproven(certificate: &PowerCertificate) -> String {
-    let PowerCertificate { faces, violated, folded, flat, imprecise } = *certificate;
+    let PowerCertificate { faces, violated, folded, flat, imprecise, gaps: _ } = *certificate;
     let share = 100.0 * violated as f64 / faces.max(1) as f64;
     format!(
         "the order \"power\" is not proven for this mesh: {violated} of {faces} faces between cells ({} %) are not convex under the \

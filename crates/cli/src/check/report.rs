@@ -48,9 +48,14 @@ pub(super) fn mesh(volume: &Volume, check: &MeshCheck) -> Vec<String> {
 
 fn proven(certificate: &PowerCertificate) -> String {
     if certificate.is_exact() {
-        return format!("yes, proven for all {} faces between cells", certificate.faces);
+        let gaps = match certificate.gaps {
+            Some(0) => " and across all gaps".to_owned(),
+            Some(open) => format!(", not across gaps ({open} boundary cells are open)"),
+            None => ", not looked at across gaps".to_owned(),
+        };
+        return format!("yes, proven for all {} faces between cells{gaps}", certificate.faces);
     }
-    let PowerCertificate { faces, violated, folded, flat, imprecise } = *certificate;
+    let PowerCertificate { faces, violated, folded, flat, imprecise, gaps: _ } = *certificate;
     let share = 100.0 * violated as f64 / faces.max(1) as f64;
     let mut text = format!("no: {violated} of {faces} faces between cells are violated ({} %)", short(share));
     for (count, what) in
@@ -129,7 +134,7 @@ pub(super) fn mesh_json(volume: &Volume, check: &MeshCheck) -> Value {
 
 fn certificate_json(certificate: &PowerCertificate) -> Value {
     json!({ "proven": certificate.is_exact(), "faces": certificate.faces, "violated": certificate.violated,
-        "folded": certificate.folded, "flat": certificate.flat, "imprecise": certificate.imprecise })
+        "folded": certificate.folded, "flat": certificate.flat, "imprecise": certificate.imprecise, "open_across_gaps": certificate.gaps })
 }
 
 pub(super) fn view_json(camera: &Camera, relations: &Relations<'_>, orders: Vec<Value>) -> Value {

@@ -52,7 +52,8 @@ fn beyond_an_edge(a: &Flat, b: &Flat, rounding: f64) -> Option<bool> {
             let is_common = (b.numbers[k] == a.numbers[i]) | (b.numbers[k] == a.numbers[j]);
             is_inside |= !is_common & (height > bound);
             // NaN is in doubt.
-            is_doubtful |= !is_common & !(height.abs() > bound);
+            let is_sure = height.abs() > bound;
+            is_doubtful |= !is_common & !is_sure;
         }
         match (is_inside, is_doubtful) {
             (true, _) => {}

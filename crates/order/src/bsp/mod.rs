@@ -181,4 +181,6 @@ fn number_points(faces: &mut [Face]) {
 }
 
 #[cfg(test)]
+mod flat_tests;
+#[cfg(test)]
 mod tests;

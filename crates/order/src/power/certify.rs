@@ -22,15 +22,24 @@ pub struct PowerCertificate {
     pub flat: usize,
     /// Cells so thin that their affine function is not known to the last digit of an f64.
     pub imprecise: usize,
+    /// Cells at the boundary that may come in the wrong order with another one across a gap; 0 for a convex mesh, which has no gaps;
+    /// `None` where nobody has asked.
+    pub gaps: Option<usize>,
 }
 
 impl PowerCertificate {
     /// Whether any two cells that share a face come in the right order, from every eye and along every direction.
     ///
     /// On a convex mesh that is every pair of cells. Elsewhere nothing is said about cells that see each other through a
-    /// gap, a hole or the outside.
+    /// gap, a hole or the outside: [`Self::is_exact_across_gaps`] does.
     pub fn is_exact(&self) -> bool {
         self.violated == 0 && self.folded == 0 && self.flat == 0 && self.imprecise == 0
+    }
+
+    /// Whether any two cells that one ray passes through come in the right order, through whatever is between them, from every
+    /// eye and along every direction. Cells that overlap have no right order.
+    pub fn is_exact_across_gaps(&self) -> bool {
+        self.is_exact() && self.gaps == Some(0)
     }
 
     fn and(self, other: Self) -> Self {
@@ -40,6 +49,7 @@ impl PowerCertificate {
             folded: self.folded + other.folded,
             flat: self.flat + other.flat,
             imprecise: self.imprecise + other.imprecise,
+            gaps: None,
         }
     }
 }
@@ -84,8 +94,10 @@ const ROUNDING_F64: f64 = 1.7764e-15;
 const SMALLEST: f64 = 1e-250;
 
 /// Whether the lift is provably convex across a face; the last two points are the corners on its two sides, and
-/// `is_far_below` is whether [`orient3d`] of the face and the last is positive.
-fn is_convex(positions: [DVec3; 5], heights: [f64; 5], is_far_below: bool) -> bool {
+/// `is_far_below` is whether [`orient3d`] of the face and the last is positive, that is, of the face and the one before negative.
+///
+/// That is whether the last point's height lies above the affine function of the other four, wherever it is.
+pub(super) fn is_convex(positions: [DVec3; 5], heights: [f64; 5], is_far_below: bool) -> bool {
     // The affine dependency of the five points, by Cramer's rule; the weight of points[3] has the sign of `orient3d`
     // of the face and points[4], negated by the order of the factors.
     let sign = if is_far_below { -1.0 } else { 1.0 };

@@ -22,6 +22,11 @@ impl Double {
         two_sum(x, -y)
     }
 
+    /// Compares as numbers; NaN comes after all others.
+    pub(super) fn total_cmp(&self, other: &Self) -> std::cmp::Ordering {
+        self.high.total_cmp(&other.high).then(self.low.total_cmp(&other.low))
+    }
+
     /// The quotient, off by a few 2⁻¹⁰⁰ of itself.
     pub(super) fn over(self, divisor: Self) -> Self {
         let first = self.high / divisor.high;

@@ -25,10 +25,19 @@ pub(super) struct Key {
 /// the stored gradient and the stored constant, four for products and sums, one for what is of second order.
 const KEY_ROUNDING: f64 = 8.0 * f64::EPSILON / 2.0;
 
-impl CellKey {
-    /// The function through the heights of four corners, and whether it is as precise as f64 holds it. A cell without volume has
-    /// none; it gets the key of `|p|²` at its centroid, so that it lies among its neighbors on a Delaunay mesh.
-    pub(super) fn new(positions: [DVec3; 4], heights: [f64; 4], center: DVec3) -> (Self, bool) {
+/// A cell's gradient in twice the precision, and what it was made from.
+struct Slope {
+    gradient: [Double; 3],
+    /// From the last corner to the others.
+    edges: [[Double; 3]; 3],
+    /// From the last corner's height to the others'.
+    rises: [Double; 3],
+    /// Six times the volume.
+    volume: Double,
+}
+
+impl Slope {
+    fn new(positions: [DVec3; 4], heights: [f64; 4]) -> Self {
         let edge =
             |k: usize| -> [Double; 3] { std::array::from_fn(|i| Double::difference(positions[k][i], positions[3][i])) };
         let edges = [edge(0), edge(1), edge(2)];
@@ -43,7 +52,34 @@ impl CellKey {
             };
             determinant([column(0), column(1), column(2)]).over(volume)
         };
-        let exact = [component(0), component(1), component(2)];
+        Self { gradient: [component(0), component(1), component(2)], edges, rises, volume }
+    }
+}
+
+/// A cell's key in twice the precision; `None` for a cell without volume.
+pub(super) fn precise_key(positions: [DVec3; 4], heights: [f64; 4], viewpoint: Viewpoint) -> Option<Double> {
+    let gradient = Slope::new(positions, heights).gradient;
+    let along = |way: [Double; 3]| (0..3).fold(Double::from(0.0), |sum, i| sum + gradient[i] * way[i]);
+    let key = match viewpoint {
+        Viewpoint::Eye(eye) => {
+            let from_corner = along(std::array::from_fn(|i| Double::difference(eye[i], positions[3][i])));
+            -(from_corner + Double::from(heights[3]))
+        }
+        Viewpoint::Direction(direction) => along(direction.to_array().map(Double::from)),
+    };
+    key.high.is_finite().then_some(key)
+}
+
+impl CellKey {
+    /// The slope of the function.
+    pub(super) fn gradient(&self) -> DVec3 {
+        self.gradient
+    }
+
+    /// The function through the heights of four corners, and whether it is as precise as f64 holds it. A cell without volume has
+    /// none; it gets the key of `|p|²` at its centroid, so that it lies among its neighbors on a Delaunay mesh.
+    pub(super) fn new(positions: [DVec3; 4], heights: [f64; 4], center: DVec3) -> (Self, bool) {
+        let Slope { gradient: exact, edges, rises, volume } = Slope::new(positions, heights);
         let constant = (0..3)
             .fold(Double::from(heights[3]), |sum, i| sum + exact[i] * Double::difference(center[i], positions[3][i]));
         let gradient = DVec3::from_array(exact.map(|component| component.high));
@@ -107,14 +143,19 @@ impl Steps {
         ((key - self.low) * self.per_key) as u32
     }
 
+    /// Whether an error stays below half a step.
+    #[inline]
+    pub(super) fn is_sure(&self, error: f64) -> bool {
+        const SURE: f64 = 0.49;
+        error.is_finite() && error * self.per_key <= SURE
+    }
+
     /// Ranges of steps, first and last, in which some key's error reaches beyond the neighboring step; disjoint, ascending.
     ///
     /// Other keys two steps apart are in the right order: each errs by less than half a step.
-    pub(super) fn unsure(&self, keys: &[Key]) -> Vec<[u32; 2]> {
-        const SURE: f64 = 0.49;
+    pub(super) fn unsure(&self, keys: impl ParallelIterator<Item = Key>) -> Vec<[u32; 2]> {
         let mut ranges: Vec<[u32; 2]> = keys
-            .par_iter()
-            .filter(|key| key.error * self.per_key > SURE || !key.error.is_finite())
+            .filter(|key| !self.is_sure(key.error))
             .map(|key| {
                 let (middle, reach) = (f64::from(self.step(key.value)), key.error * self.per_key + 2.0);
                 [(middle - reach).floor() as u32, (middle + reach).ceil() as u32]

@@ -10,12 +10,15 @@
 
 mod certify;
 mod double;
+mod frame;
+mod gaps;
 mod heights;
 mod keys;
 mod lifted;
 mod quadratic;
 mod relax;
 mod settle;
+mod sort;
 
 pub use certify::PowerCertificate;
 pub use heights::{Budget, HeightSource, Heights};
@@ -25,22 +28,30 @@ use rayon::prelude::*;
 use tetrascope_mesh::{CellId, FaceAdjacency};
 use tetrascope_view::Viewpoint;
 
-use crate::{Cells, Guarantee, Order, VisibilityOrder, sort_by_key};
+use crate::{Cells, Guarantee, Order, VisibilityOrder};
 use certify::certify;
+use frame::Frame;
 use keys::CellKey;
+use settle::{Closer, settle};
 
 /// Sorts by the height that a cell's affine function takes at the eye: one key a cell, one radix sort.
 ///
 /// Cells that share a face come in the right order from every viewpoint if [`PowerCertificate::is_exact`]. Keys are sorted by 32
 /// bits; cells whose keys are nearer than that resolves are compared in f64, and those nearer than f64 is sure of by the
 /// exact side of their common faces. Cells that meet edge-on keep the order of `drawn` where nothing else decides. Memory: 32
-/// bytes a cell. It orders the mesh it was made for, and no other. Two cells that share no face and whose keys agree to rounding are told apart only through cells that are drawn.
+/// bytes a cell and 8 a point. It orders the mesh it was made for, and no other.
+///
+/// The order's [`Guarantee`] is `Exact` if [`PowerCertificate::is_exact_across_gaps`], `Faces` if only [`PowerCertificate::is_exact`], and
+/// else `Approximate`. Where it is `Exact`, cells that share no face are told apart down to 1e-30 of what cancels in their keys;
+/// else those whose keys agree to rounding only through cells that are drawn.
 #[derive(Clone, Debug)]
 pub struct Power {
     keys: Vec<CellKey>,
     center: DVec3,
     /// Half the sum of the sides of the box around the points: bounds what rounding a gradient moves at the center.
     reach: f64,
+    /// One a position.
+    heights: Vec<f64>,
     certificate: PowerCertificate,
 }
 
@@ -58,14 +69,8 @@ impl Power {
     /// For heights that were found before, one a position. They are proven anew: any heights give an order, wrong ones a bad
     /// one that the certificate tells. Missing heights count as 0.
     pub fn with_heights(cells: Cells<'_>, adjacency: &FaceAdjacency, heights: &[f64]) -> Self {
-        let mut padded;
-        let heights = if heights.len() < cells.positions.len() {
-            padded = heights.to_vec();
-            padded.resize(cells.positions.len(), 0.0);
-            padded.as_slice()
-        } else {
-            heights
-        };
+        let mut heights = heights.to_vec();
+        heights.resize(cells.positions.len(), 0.0);
         let center = heights::middle(cells);
         let extent = |v: &tetrascope_mesh::VertexId| (cells.positions[v.index()] - center).abs();
         let half = cells.tetrahedra.par_iter().flatten_iter().map(extent).reduce(|| DVec3::ZERO, DVec3::max);
@@ -78,9 +83,27 @@ impl Power {
             })
             .collect();
         let imprecise = found.iter().filter(|(_, is_precise)| !is_precise).count();
-        let certificate = PowerCertificate { imprecise, ..certify(cells, adjacency, heights) };
+        let certificate = PowerCertificate { imprecise, ..certify(cells, adjacency, &heights) };
         let keys = found.into_iter().map(|(key, _)| key).collect();
-        Self { keys, center, reach: half.element_sum(), certificate }
+        Self { keys, center, reach: half.element_sum(), heights, certificate }
+    }
+
+    /// Proves what can be proven across the gaps of the mesh: [`PowerCertificate::gaps`].
+    ///
+    /// Nothing is looked at where faces alone are not in order. Some microseconds a boundary face.
+    ///
+    /// - `is_convex`: whether the mesh has no gaps; believed
+    #[must_use]
+    pub fn prove_gaps(mut self, cells: Cells<'_>, adjacency: &FaceAdjacency, is_convex: bool) -> Self {
+        if self.certificate.is_exact() {
+            let gaps = if is_convex {
+                0
+            } else {
+                gaps::unproven(cells, adjacency, &self.heights, &self.keys, self.center, self.reach)
+            };
+            self.certificate.gaps = Some(gaps);
+        }
+        self
     }
 
     /// What is proven about this order.
@@ -95,22 +118,28 @@ impl Power {
 
 impl VisibilityOrder for Power {
     fn order(&self, cells: Cells<'_>, viewpoint: Viewpoint, drawn: &[CellId]) -> Order {
-        let keys: Vec<keys::Key> = drawn.par_iter().map(|&cell| self.key(cell, viewpoint)).collect();
-        let (low, high) = keys
-            .par_iter()
-            .map(|key| (key.value, key.value))
-            .reduce(|| (f64::INFINITY, f64::NEG_INFINITY), |a, b| (a.0.min(b.0), a.1.max(b.1)));
-        let steps = keys::Steps::between(low, high);
-        let mut sorted: Vec<(u32, CellId)> = Vec::with_capacity(drawn.len());
-        drawn.par_iter().zip(&keys).map(|(&cell, key)| (steps.step(key.value), cell)).collect_into_vec(&mut sorted);
-        let unsure = steps.unsure(&keys);
-        drop(keys);
-        sort_by_key(&mut sorted);
-        settle::settle(&mut sorted, &unsure, cells, viewpoint, |cell| self.key(cell, viewpoint));
-        let front_to_back = sorted.into_iter().map(|(_, cell)| cell).collect();
-        Order::whole(front_to_back, Guarantee::Approximate)
+        let guarantee = if self.certificate.is_exact_across_gaps() {
+            Guarantee::Exact
+        } else if self.certificate.is_exact() {
+            Guarantee::Faces
+        } else {
+            Guarantee::Approximate
+        };
+        let precise = |cell: CellId| {
+            // Faces tell neighbors apart; only what is proven across gaps needs more.
+            if guarantee != Guarantee::Exact {
+                return None;
+            }
+            let corners = cells.tetrahedra[cell.index()];
+            let positions = corners.map(|v| cells.positions[v.index()]);
+            keys::precise_key(positions, corners.map(|v| self.heights[v.index()]), viewpoint)
+        };
+        let closer = Closer { cells, viewpoint, key: |cell| self.key(cell, viewpoint), precise };
+        Order::whole(settle(&Frame::new(self, viewpoint, drawn), drawn, &closer), guarantee)
     }
 }
 
+#[cfg(test)]
+mod gap_tests;
 #[cfg(test)]
 mod tests;

@@ -2,50 +2,95 @@
 
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
+use std::ops::Range;
 
+use rayon::prelude::*;
 use robust::orient3d;
 use tetrascope_mesh::{CellId, FaceAdjacency, VertexId};
 use tetrascope_view::Viewpoint;
 
 use super::certify::{coord, determinant};
 use super::double::{Double, ROUNDING};
+use super::frame::Frame;
 use super::keys::Key;
 use crate::Cells;
 
 /// Up to this many cells common faces are found by comparing all pairs; beyond, through an adjacency of their own.
 const FEW: usize = 12;
 
-/// Puts right, in cells sorted by their steps, those whose steps do not tell: equal or neighboring ones and those in a
-/// range of `unsure`.
-pub(super) fn settle(
-    sorted: &mut [(u32, CellId)],
-    unsure: &[[u32; 2]],
-    cells: Cells<'_>,
-    viewpoint: Viewpoint,
-    key: impl Fn(CellId) -> Key,
-) {
-    let mut range = 0;
-    let mut start = 0;
-    for end in 1..=sorted.len() {
-        let is_joined = end < sorted.len() && {
-            let (before, after) = (sorted[end - 1].0, sorted[end].0);
-            while range < unsure.len() && unsure[range][1] < after {
-                range += 1;
-            }
-            after - before < 2 || unsure.get(range).is_some_and(|&[first, _]| first <= before)
-        };
-        if !is_joined {
-            if end - start > 1 {
-                settle_run(&mut sorted[start..end], cells, viewpoint, &key);
-            }
-            start = end;
-        }
-    }
+/// Keys of twice the precision, about a microsecond each, that are worth a task.
+const PRECISE_PER_TASK: usize = 32;
+
+/// Steps that one task looks through for runs.
+const STEPS_PER_TASK: usize = 1 << 14;
+
+/// What telling cells apart takes.
+#[derive(Clone, Copy)]
+pub(super) struct Closer<'a, K, P> {
+    pub(super) cells: Cells<'a>,
+    pub(super) viewpoint: Viewpoint,
+    /// A cell's key in f64.
+    pub(super) key: K,
+    /// The same in twice the precision, where there is one and it is wanted.
+    pub(super) precise: P,
 }
 
-/// Sorts a run by its keys in f64, and by common faces where these overlap within their errors.
-fn settle_run(run: &mut [(u32, CellId)], cells: Cells<'_>, viewpoint: Viewpoint, key: impl Fn(CellId) -> Key) {
-    let mut keyed: Vec<(Key, CellId)> = run.iter().map(|&(_, cell)| (key(cell), cell)).collect();
+/// Cells from front to back, from cells sorted by their steps: puts right those whose steps do not tell, equal or neighboring
+/// ones and those in a range of `unsure`.
+pub(super) fn settle<K, P>(frame: &Frame, drawn: &[CellId], closer: &Closer<'_, K, P>) -> Vec<CellId>
+where
+    K: Fn(CellId) -> Key + Sync,
+    P: Fn(CellId) -> Option<Double> + Sync,
+{
+    let cell = |item: &u64| drawn[*item as u32 as usize];
+    let mut front_to_back: Vec<CellId> = frame.sorted.par_iter().map(cell).collect();
+    let step = |place: usize| (frame.sorted[place] >> 32) as u32;
+    let is_joined = |place: usize| {
+        let (before, after) = (step(place - 1), step(place));
+        after - before < 2 || {
+            // The first range that does not end before.
+            let range = frame.unsure.partition_point(|range| range[1] < after);
+            frame.unsure.get(range).is_some_and(|&[first, _]| first <= before)
+        }
+    };
+    // Runs by where they begin.
+    let runs: Vec<Range<usize>> = (0..frame.sorted.len().div_ceil(STEPS_PER_TASK))
+        .into_par_iter()
+        .flat_map_iter(|task| {
+            let end = ((task + 1) * STEPS_PER_TASK).min(frame.sorted.len());
+            let mut runs = Vec::new();
+            let mut place = task * STEPS_PER_TASK;
+            while place < end && place > 0 && is_joined(place) {
+                place += 1;
+            }
+            while place < end {
+                let start = place;
+                place += 1;
+                while place < frame.sorted.len() && is_joined(place) {
+                    place += 1;
+                }
+                if place - start > 1 {
+                    runs.push(start..place);
+                }
+            }
+            runs
+        })
+        .collect();
+    let settled: Vec<Vec<CellId>> =
+        runs.par_iter().map(|run| settle_run(&front_to_back[run.clone()], closer)).collect();
+    for (run, members) in runs.into_iter().zip(settled) {
+        front_to_back[run].copy_from_slice(&members);
+    }
+    front_to_back
+}
+
+/// Sorts a run by its keys in f64; where these overlap within their errors by keys of twice the precision, and by common faces.
+fn settle_run<K, P>(run: &[CellId], closer: &Closer<'_, K, P>) -> Vec<CellId>
+where
+    K: Fn(CellId) -> Key + Sync,
+    P: Fn(CellId) -> Option<Double> + Sync,
+{
+    let mut keyed: Vec<(Key, CellId)> = run.iter().map(|&cell| ((closer.key)(cell), cell)).collect();
     keyed.sort_by(|(a, _), (b, _)| a.value.total_cmp(&b.value));
     // The lowest that any key from here on may be.
     let mut lowest = vec![f64::INFINITY; keyed.len() + 1];
@@ -60,12 +105,22 @@ fn settle_run(run: &mut [(u32, CellId)], cells: Cells<'_>, viewpoint: Viewpoint,
         highest = highest.max(last.value + last.error);
         if end == keyed.len() || highest < lowest[end] {
             if end - start > 1 {
-                sort_by_faces(&mut members[start..end], cells, viewpoint);
+                let group = &mut members[start..end];
+                let precise: Option<Vec<(Double, CellId)>> = group
+                    .par_iter()
+                    .with_min_len(PRECISE_PER_TASK)
+                    .map(|&cell| Some(((closer.precise)(cell)?, cell)))
+                    .collect();
+                if let Some(mut precise) = precise {
+                    precise.sort_by(|(a, _), (b, _)| a.total_cmp(b));
+                    group.iter_mut().zip(precise).for_each(|(place, (_, cell))| *place = cell);
+                }
+                sort_by_faces(group, closer.cells, closer.viewpoint);
             }
             start = end;
         }
     }
-    run.iter_mut().zip(members).for_each(|(item, cell)| item.1 = cell);
+    members
 }
 
 /// Sorts so that of two cells that share a face the nearer comes first, and otherwise leaves them as they are as far as it can.

@@ -10,17 +10,17 @@ use super::certify::coord;
 use super::double::Double;
 use super::*;
 
-struct Mesh {
-    positions: Vec<DVec3>,
-    tetrahedra: Vec<[VertexId; 4]>,
+pub(super) struct Mesh {
+    pub(super) positions: Vec<DVec3>,
+    pub(super) tetrahedra: Vec<[VertexId; 4]>,
 }
 
 impl Mesh {
-    fn cells(&self) -> Cells<'_> {
+    pub(super) fn cells(&self) -> Cells<'_> {
         Cells { positions: &self.positions, tetrahedra: &self.tetrahedra }
     }
 
-    fn drawn(&self) -> Vec<CellId> {
+    pub(super) fn drawn(&self) -> Vec<CellId> {
         (0..self.tetrahedra.len() as u32).map(CellId).collect()
     }
 
@@ -29,7 +29,7 @@ impl Mesh {
         Power::with_adjacency(self.cells(), &adjacency, Budget { visits_per_face })
     }
 
-    fn map(mut self, f: impl Fn(usize, DVec3) -> DVec3) -> Self {
+    pub(super) fn map(mut self, f: impl Fn(usize, DVec3) -> DVec3) -> Self {
         self.positions = self.positions.iter().enumerate().map(|(i, &p)| f(i, p)).collect();
         self
     }
@@ -51,7 +51,7 @@ fn grid(n: u32, cut: impl Fn(bool) -> Vec<[usize; 4]>) -> Mesh {
 }
 
 /// Five tetrahedra a cube, mirrored from cube to cube.
-fn checkerboard(n: u32) -> Mesh {
+pub(super) fn checkerboard(n: u32) -> Mesh {
     grid(n, |is_odd| {
         let five = [[0, 3, 5, 6], [1, 0, 3, 5], [2, 0, 3, 6], [4, 0, 5, 6], [7, 3, 5, 6]];
         five.map(|t| t.map(|c| if is_odd { c ^ 1 } else { c })).to_vec()
@@ -65,7 +65,7 @@ fn around_diagonals(n: u32) -> Mesh {
 
 /// Pairs of cells that share a face and come in the wrong order. Along a direction the eye is put so far away that only faces
 /// seen within 1e-9 of edge-on could be judged differently; these are left out.
-fn misordered(mesh: &Mesh, viewpoint: Viewpoint, order: &[CellId]) -> usize {
+pub(super) fn misordered(mesh: &Mesh, viewpoint: Viewpoint, order: &[CellId]) -> usize {
     let mut place = vec![0; order.len()];
     order.iter().enumerate().for_each(|(i, cell)| place[cell.index()] = i);
     let adjacency = FaceAdjacency::new(&mesh.tetrahedra);
@@ -91,12 +91,12 @@ fn misordered(mesh: &Mesh, viewpoint: Viewpoint, order: &[CellId]) -> usize {
     count
 }
 
-fn unit() -> impl Strategy<Value = DVec3> {
+pub(super) fn unit() -> impl Strategy<Value = DVec3> {
     (-1.0..1.0, -1.0..1.0, -1.0..1.0_f64).prop_map(DVec3::from)
 }
 
 /// Inside, outside, on grid points and planes (many equal keys), and along directions.
-fn viewpoint(n: u32) -> impl Strategy<Value = Viewpoint> {
+pub(super) fn viewpoint(n: u32) -> impl Strategy<Value = Viewpoint> {
     let n = f64::from(n);
     let lattice =
         (-2..9_i32, -2..9_i32, -2..9_i32).prop_map(|(x, y, z)| DVec3::new(x.into(), y.into(), z.into()) * 0.5);
