@@ -48,7 +48,7 @@ pub use tetrascope_mesh::{
     ArrayValues, CellKind, Cells, ChordLengths, DataArray, Dataset, Decomposition, MeshError, StructuredBlock, TetMesh,
     UnstructuredCells, chord_lengths, decompose, vertex_gradients,
 };
-pub use tetrascope_order::OrderMethod;
+pub use tetrascope_order::{CycleRemedy, OrderMethod};
 pub use tetrascope_scene::{
     ArraySummary, Association, Backend, Choice, Completed, Decision, Field, FieldError, FieldOnMesh, Gradients,
     IsosurfaceMethod, IsosurfaceMethodName, IsosurfacePlan, IsosurfaceSection, LengthAxisName, LightDirection,
