@@ -32,6 +32,10 @@ impl BspXmpvo {
 }
 
 impl VisibilityOrder for BspXmpvo {
+    fn kept_bytes(&self) -> usize {
+        self.mpvo.kept_bytes() + self.tree.as_ref().map_or(0, |tree| tree.bytes())
+    }
+
     /// # Panics
     ///
     /// If `cells` is not the mesh that it was made for, in number.

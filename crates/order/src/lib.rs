@@ -155,6 +155,11 @@ pub trait VisibilityOrder: std::fmt::Debug + Send + Sync {
     /// Deterministic: the same arguments give the same permutation, whatever the number of threads. Cells that the method
     /// cannot tell apart keep the order of `drawn`.
     fn order(&self, cells: Cells<'_>, viewpoint: Viewpoint, drawn: &[CellId]) -> Order;
+
+    /// Bytes that it keeps of the mesh from frame to frame, parts that it shares with other orders included.
+    fn kept_bytes(&self) -> usize {
+        0
+    }
 }
 
 #[cfg(test)]

@@ -199,6 +199,14 @@ impl Mpvo {
 }
 
 impl VisibilityOrder for Mpvo {
+    fn kept_bytes(&self) -> usize {
+        let last = self.last.lock().unwrap_or_else(PoisonError::into_inner).bytes();
+        size_of_val(self.adjacency.table())
+            + self.sides.bytes()
+            + self.boundary.as_deref().map_or(0, size_of_val)
+            + last
+    }
+
     /// # Panics
     ///
     /// If `cells` is not the mesh that it was made for, in number.

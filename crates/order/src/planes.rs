@@ -51,6 +51,11 @@ pub(crate) struct Glance {
 }
 
 impl Planes {
+    /// Bytes that it keeps.
+    pub(crate) fn bytes(&self) -> usize {
+        size_of_val(self.blocks.as_slice())
+    }
+
     /// - `outward`: for a cell and a corner the points of the face, and whether the normal `(q - p) × (r - p)` leads out of the
     ///   cell; `None` where the face is never asked about
     pub(crate) fn new(cells: Cells<'_>, outward: impl Fn(usize, usize) -> Option<([DVec3; 3], bool)> + Sync) -> Self {

@@ -50,6 +50,11 @@ impl Kept {
         &self.placed
     }
 
+    /// Bytes that it keeps.
+    pub(crate) fn bytes(&self) -> usize {
+        self.bytes.len() + size_of_val(self.placed.as_slice()) + size_of_val(self.ranks.as_slice())
+    }
+
     /// Forgets the order.
     pub(crate) fn forget(&mut self) {
         self.placed.clear();

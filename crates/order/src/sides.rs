@@ -129,6 +129,11 @@ impl FaceSides {
     pub(crate) fn len(&self) -> usize {
         self.sides.len()
     }
+
+    /// Bytes that it keeps.
+    pub(crate) fn bytes(&self) -> usize {
+        self.sides.len() + self.planes.bytes()
+    }
 }
 
 /// A face's points in the order in which the cell lists them.

@@ -160,6 +160,11 @@ impl BspTree {
         Self { faces, is_whole, tree, report, largest }
     }
 
+    /// Bytes that it keeps.
+    pub fn bytes(&self) -> usize {
+        size_of_val(self.faces.as_slice()) + self.is_whole.len() + self.tree.bytes()
+    }
+
     /// What came of building.
     pub fn report(&self) -> TreeReport {
         self.report

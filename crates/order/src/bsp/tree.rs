@@ -71,6 +71,11 @@ impl Tree {
         tree
     }
 
+    /// Bytes that it keeps.
+    pub(super) fn bytes(&self) -> usize {
+        size_of_val(self.nodes.as_slice()) + size_of_val(self.fragments.as_slice())
+    }
+
     /// Number of fragments.
     pub(super) fn fragments(&self) -> usize {
         self.fragments.len()

@@ -117,6 +117,10 @@ impl Power {
 }
 
 impl VisibilityOrder for Power {
+    fn kept_bytes(&self) -> usize {
+        size_of_val(self.keys.as_slice()) + size_of_val(self.heights.as_slice())
+    }
+
     fn order(&self, cells: Cells<'_>, viewpoint: Viewpoint, drawn: &[CellId]) -> Order {
         let guarantee = if self.certificate.is_exact_across_gaps() {
             Guarantee::Exact

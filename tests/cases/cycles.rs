@@ -1,0 +1,67 @@
+//! Rings of cells across shared faces, through the public doors: what is reported, and what cutting makes of it.
+
+use std::f64::consts::TAU;
+
+use glam::DVec3;
+use tetrascope::mesh::TetMesh;
+use tetrascope::{
+    Camera, CpuRenderer, CycleRemedy, OpticalModel, OrderMethod, Plan, Projection, Silent, TransferFunction, View,
+    reference,
+};
+use tetrascope_tests::compare::difference;
+
+/// A column of twisted sectors, each leaning over the next one like the blades of a fan: seen along its axis, two of the three cells of
+/// every sector form one ring.
+fn column(count: u32) -> (TetMesh, Vec<f64>) {
+    let mut points = Vec::new();
+    for level in 0..2 {
+        for i in 0..count {
+            let angle = (f64::from(i) - f64::from(level) / 3.0) / f64::from(count) * TAU;
+            points.push(DVec3::new(angle.cos(), angle.sin(), f64::from(level)));
+        }
+    }
+    points.extend([DVec3::ZERO, DVec3::Z]);
+    let (low, high) = (2 * count, 2 * count + 1);
+    let mut cells = Vec::new();
+    for i in 0..count {
+        let next = (i + 1) % count;
+        let [a, b, c, d] = [i, next, count + i, count + next];
+        cells.extend([[low, a, b, high], [high, a, b, c], [high, b, c, d]]);
+    }
+    let scalars = points.iter().map(|p| (2.0 * p.x).sin() + p.y * p.z).collect();
+    (TetMesh::from_tetrahedra(&points, &cells).unwrap().mesh, scalars)
+}
+
+#[test]
+fn a_ring_of_neighbors_is_cut() {
+    for count in [6, 12] {
+        let (mesh, scalars) = column(count);
+        let renderer = CpuRenderer::new(&mesh, &scalars).unwrap();
+        for (eye, projection) in [
+            (DVec3::new(0.1, 0.2, 6.0), Projection::Perspective { fov_y: 0.5 }),
+            (DVec3::new(0.1, 0.2, 6.0), Projection::Orthographic { height: 2.5 }),
+            (DVec3::new(0.05, -0.03, 0.7), Projection::Perspective { fov_y: 1.8 }),
+        ] {
+            let camera = Camera { eye, target: DVec3::new(0.0, 0.01, 0.0), up: DVec3::Y, projection };
+            let color = [[-2.0, 0.9, 0.1, 0.1], [0.0, 0.1, 0.8, 0.3], [2.0, 0.1, 0.2, 0.9]];
+            let transfer = TransferFunction::new(&color, &[[-2.0, 4.0], [2.0, 1.0]]).unwrap();
+            let plan = Plan {
+                order: OrderMethod::Mpvo,
+                ..Plan::new(View::new(&camera, 90, 90).unwrap(), transfer, OpticalModel::DensityEmitter)
+            };
+            let exact = reference::render(&mesh, &scalars, &plan, &Silent).unwrap().image;
+            let draw = |cycles| renderer.render(&Plan { cycles, ..plan.clone() }, &Silent).unwrap();
+            let (reported, cut) = (draw(CycleRemedy::Report), draw(CycleRemedy::Cut));
+            // The eye at 6 has the ring before it; from inside the column it is partly behind the eye.
+            if eye.z > 1.0 {
+                assert_eq!(reported.counts.cyclic, 2 * u64::from(count));
+                assert!(cut.counts.drawn > reported.counts.drawn, "nothing was cut");
+                assert!(difference(&reported.image, &exact, 1e-5, &[]).beyond > 0, "the ring is not seen");
+            }
+            assert_eq!(reported.counts.cyclic, cut.counts.cyclic, "rings as they are found");
+            let found = difference(&cut.image, &exact, 1e-5, &[]);
+            println!("column of {count}, eye at {eye}: {} parts, {:.1e}", cut.counts.drawn, found.largest);
+            assert!(found.largest <= 1e-5, "{count} sectors, eye at {eye}: {found:?}");
+        }
+    }
+}
