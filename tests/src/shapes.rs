@@ -239,14 +239,16 @@ mod tests {
     fn shapes_have_the_volumes_that_they_should() {
         for seed in 0..4 {
             let [delaunay, convex] = [delaunay(22, seed), convex(seed)];
-            // Convex bodies are filled once: by chords of lines through them.
+            // Lines through the middle of a cell meet several.
             for shape in [&delaunay, &convex] {
                 let mut random = Random::new(seed);
-                for _ in 0..20 {
-                    let (origin, direction) = (random.point() * 0.5, random.point());
-                    let met = along_ray(shape, origin, direction, f64::NEG_INFINITY, 1e-9);
-                    assert!(met.len() > 3, "{}: {} cells on a line", shape.name, met.len());
-                }
+                let lines = (0..20).map(|_| {
+                    let corners = shape.corners((random.unit() * shape.tetrahedra.len() as f64) as usize);
+                    let middle = corners.iter().sum::<DVec3>() / 4.0;
+                    along_ray(shape, middle, random.point(), f64::NEG_INFINITY, 1e-9).len()
+                });
+                let met: usize = lines.sum();
+                assert!(met > 60, "{}: {met} cells on 20 lines", shape.name);
             }
             let base = volume(&convex);
             assert!(base > 3.0 && base < std::f64::consts::TAU, "{base}");

@@ -7,7 +7,7 @@ use crate::Cells;
 use crate::bsp::side_of;
 
 /// A boundary face's points, and the corner of its cell that is not one of them.
-fn points_of(cells: Cells<'_>, face: CellFace) -> ([VertexId; 3], VertexId) {
+pub(crate) fn points_of(cells: Cells<'_>, face: CellFace) -> ([VertexId; 3], VertexId) {
     let [a, b, c, d] = cells.tetrahedra[face.cell.index()];
     match face.corner {
         0 => ([b, c, d], a),

@@ -5,10 +5,11 @@ use std::sync::{Arc, OnceLock};
 use tetrascope_mesh::FaceAdjacency;
 
 use crate::convex::is_convex;
+use crate::piercing::piercing;
 use crate::sides::FaceSides;
 use crate::{
-    BspTree, BspXmpvo, Bucket, Budget, Cells, Centroid, Heights, Mpvo, OrderMethod, Power, PowerCertificate, Unordered,
-    VisibilityOrder,
+    BspTree, BspXmpvo, Bucket, Budget, Cells, Centroid, Heights, Mpvo, OrderMethod, Piercing, Power, PowerCertificate,
+    Unordered, VisibilityOrder,
 };
 
 /// What visibility orders know of one mesh: each part is learned once, when first asked for, and shared by all orders.
@@ -65,6 +66,11 @@ impl MeshVisibility {
     /// Whether the mesh is convex: one piece, and no ray leaves it and enters it again.
     pub fn is_convex(&self, cells: Cells<'_>) -> bool {
         *self.is_convex.get_or_init(|| is_convex(cells, self.adjacency(cells)))
+    }
+
+    /// Parts of the boundary that stand in each other: where cells overlap, no order is right.
+    pub fn piercing(&self, cells: Cells<'_>) -> Piercing {
+        piercing(cells, self.adjacency(cells))
     }
 
     /// One key a cell, from the heights given or else from those that [`Heights::solve`] finds.

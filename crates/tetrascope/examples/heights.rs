@@ -4,6 +4,8 @@
 //! a Markdown table: interior faces out of order with `|p|²` and with the heights found, the time to find them, and what is
 //! proven; for those out of reach, faces that are folded, with which no heights exist.
 
+#![expect(clippy::print_stdout, clippy::print_stderr, reason = "a program speaks to its user")]
+
 use std::path::Path;
 use std::time::Instant;
 

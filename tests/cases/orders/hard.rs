@@ -74,7 +74,7 @@ fn check(raw: &Raw, name: &str) -> Vec<usize> {
                 listed.sort_unstable();
                 listed.dedup();
                 assert_eq!(listed, drawn, "{name}, after {}, {viewpoint:?}", CycleRemedy::Cut);
-                assert!(cut.front_to_back.len() < 64 * drawn.len(), "{name}: {} pieces", cut.front_to_back.len());
+                assert!(cut.front_to_back.len() <= 64 * drawn.len(), "{name}: {} pieces", cut.front_to_back.len());
             }
         }
     }
@@ -89,14 +89,14 @@ fn coplanar_faces() {
     let mut raw = Raw::default();
     let mut random = Random::new(1);
     for place in 0..2000 {
-        let corner = DVec3::new(f64::from(place % 40), f64::from(place / 40), 0.0) / 25.0 - DVec3::new(0.8, 1.0, 0.0);
-        let [x, y] = [DVec3::X, DVec3::Y].map(|axis| corner + axis * 0.04);
+        let corner = DVec3::new(f64::from(place % 40), f64::from(place / 40), 0.0) / 32.0 - DVec3::new(0.5, 0.75, 0.0);
+        let [x, y] = [DVec3::X, DVec3::Y].map(|axis| corner + axis / 32.0);
         for side in [1.0, -1.0] {
             let apex = corner + DVec3::new(0.01, 0.01, side * random.between(0.01, 0.1));
             raw.add([corner, x, y, apex]);
         }
     }
-    // No two cells overlap, and each pair is parted by the plane or by a line in it.
+    // Multiples of 1/32, so that rounding makes no overlaps. No two cells overlap, and each pair is parted by the plane or by a line in it.
     assert_eq!(check(&raw, "sheet"), vec![0; 10]);
 }
 
@@ -139,7 +139,10 @@ fn parts_that_interpenetrate() {
     raw.add_grid(6, DQuat::IDENTITY);
     raw.add_grid(6, DQuat::from_rotation_z(0.4) * DQuat::from_rotation_x(0.3));
     let cyclic = check(&raw, "interpenetrating blocks");
-    assert!(cyclic.iter().all(|&cells| cells > 0), "{cyclic:?}");
+    // From outside some faces that pierce each other hide each other; from the middle all are left outwards.
+    assert!(cyclic[..4].iter().all(|&cells| cells > 0), "{cyclic:?}");
+    let piercing = MeshVisibility::new().piercing(raw.cells());
+    assert!(piercing.pairs > 100 && piercing.is_complete, "{piercing:?}");
 }
 
 /// Nothing, and one cell.

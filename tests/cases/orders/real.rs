@@ -22,7 +22,7 @@ struct Case {
 const CASES: &[Case] = &[
     Case { mesh: "vtk/delaunay_unitcube_binary_v4.2.vtk", has_power: true, folds: false },
     Case { mesh: "plot3d/bluntfinxyz.bin", has_power: true, folds: false },
-    Case { mesh: "plot3d/combxyz.bin", has_power: false, folds: true },
+    Case { mesh: "plot3d/combxyz.bin", has_power: false, folds: false },
     Case { mesh: "plot3d/postxyz.bin", has_power: true, folds: false },
     Case { mesh: "vtu/gmsh_block_98k.vtu", has_power: true, folds: false },
     Case { mesh: "vtu/can.vtu", has_power: false, folds: true },
