@@ -1,14 +1,15 @@
-//! Rings of cells across shared faces, through the public doors: what is reported, and what cutting makes of it.
+//! Rings of cells, through the public doors: what is reported, and what each remedy makes of it.
 
 use std::f64::consts::TAU;
 
 use glam::DVec3;
 use tetrascope::mesh::TetMesh;
 use tetrascope::{
-    Camera, CpuRenderer, CycleRemedy, OpticalModel, OrderMethod, Plan, Projection, Silent, TransferFunction, View,
-    reference,
+    Backend, Camera, CpuRenderer, CycleRemedy, OpticalModel, OrderMethod, Plan, Projection, Silent, TransferFunction,
+    View, Volume, reference,
 };
 use tetrascope_tests::compare::difference;
+use tetrascope_tests::shared;
 
 /// A column of twisted sectors, each leaning over the next one like the blades of a fan: seen along its axis, two of the three cells of
 /// every sector form one ring.
@@ -62,6 +63,35 @@ fn a_ring_of_neighbors_is_cut() {
             let found = difference(&cut.image, &exact, 1e-5, &[]);
             println!("column of {count}, eye at {eye}: {} parts, {:.1e}", cut.counts.drawn, found.largest);
             assert!(found.largest <= 1e-5, "{count} sectors, eye at {eye}: {found:?}");
+        }
+    }
+}
+
+/// Rings across gaps and across faces, seen along -z: three sticks; a twisted column, of whose 18 cells 12 are in the ring.
+#[test]
+fn rings_of_real_files_are_found_and_mended() {
+    let Some(folder) = shared::folder("rings of cells in files") else { return };
+    for (file, members, middle, height) in [
+        ("vtu/cycle_3_sticks.vtu", 3, DVec3::new(-0.5, 0.0, 0.0), 5.0),
+        ("vtu/cycle_twisted_column_18.vtu", 12, DVec3::new(0.1, 0.2, 0.0), 3.0),
+    ] {
+        let volume = Volume::load(&folder.join("data").join(file), None).unwrap();
+        let field = volume.field(Some("s")).unwrap();
+        for projection in [Projection::Perspective { fov_y: height / 9.0 }, Projection::Orthographic { height }] {
+            let camera = Camera { eye: middle + DVec3::Z * 9.0, target: middle, up: DVec3::Y, projection };
+            let color = [[0.0, 0.9, 0.1, 0.1], [0.5, 0.1, 0.8, 0.3], [1.0, 0.1, 0.2, 0.9]];
+            let transfer = TransferFunction::new(&color, &[[0.0, 4.0], [1.0, 1.0]]).unwrap();
+            let view = View::new(&camera, 240, 240).unwrap();
+            let plan = Plan { order: OrderMethod::BspXmpvo, ..Plan::new(view, transfer, OpticalModel::DensityEmitter) };
+            let draw = |backend, cycles| field.render(&Plan { backend, cycles, ..plan.clone() }, &Silent).unwrap();
+            let exact = draw(Backend::Reference, CycleRemedy::Report).image;
+            for remedy in CycleRemedy::ALL {
+                let drawn = draw(Backend::Cpu, remedy);
+                assert_eq!((drawn.counts.cyclic, drawn.order.rings), (members, 1), "{file}, {remedy}");
+                let found = difference(&drawn.image, &exact, 1e-5, &[]);
+                println!("{file}, {remedy}: largest {:.1e}, {} pixels beyond", found.largest, found.beyond);
+                assert_eq!(found.beyond > 0, remedy == CycleRemedy::Report, "{file}, {remedy}: {found:?}");
+            }
         }
     }
 }

@@ -86,30 +86,18 @@ fn surfaces_of_chance_agree_with_the_reference() {
     }
 }
 
-/// Up to 1e5 sizes of the mesh nothing is lost or doubled, but for rays that graze a surface: 4 of 4900 at most.
+/// Up to 1e8 sizes of the mesh nothing is lost or doubled, but for rays that graze a surface: 4 of 4900 at most.
 #[test]
 fn far_eyes_lose_no_surface() {
     for cells in [8, 24] {
         let (mesh, scalars) = sample(cells);
-        for distance in [10.0, 1e3, 1e4, 1e5] {
+        for distance in [10.0, 1e3, 1e4, 1e5, 1e6, 1e8] {
             let plan = surfaces_alone(view_from(distance, 70), vec![white(0.0, 0.4), white(0.31, 0.4)]);
             let [fast, slow] = Renderer::EXACT.map(|renderer| renderer.draw(&mesh, &scalars, &plan));
             let count = wrong(&fast, &slow);
             assert!(count <= 4, "{cells} cells a side from {distance:e}: {count} pixels");
         }
     }
-}
-
-/// A known limit: from 1e6 sizes away f32 does not tell the depths of neighboring cells apart, and a few pixels where their
-/// order is wrong lose or double a layer.
-#[test]
-fn farther_eyes_lose_some() {
-    let (mesh, scalars) = sample(24);
-    let plan = surfaces_alone(view_from(1e6, 70), vec![white(0.31, 0.4)]);
-    let [fast, slow] = Renderer::EXACT.map(|renderer| renderer.draw(&mesh, &scalars, &plan));
-    let count = wrong(&fast, &slow);
-    println!("from 1e6: {count} of 4900 pixels");
-    assert!((1..490).contains(&count), "{count} pixels; none is news");
 }
 
 /// A hundred surfaces at the cost of their crossings: layers count, however many there are in a cell.
