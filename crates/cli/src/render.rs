@@ -143,11 +143,11 @@ pub(crate) fn wrong_scene(scene_path: Option<&Path>, error: tetrascope::Error) -
 pub(crate) fn scene_of_inputs(inputs: &[PathBuf]) -> Result<(SceneFile, PathBuf), Failure> {
     match inputs {
         [scene] if is_scene(scene) => Ok((scene_paths::read(scene)?, folder_of(scene).to_owned())),
-        [mesh] => Ok((SceneFile::of_mesh(mesh), PathBuf::from("."))),
+        [mesh] => Ok((SceneFile::of_mesh(mesh), PathBuf::new())),
         [grid, solution] if !is_scene(grid) && !is_scene(solution) => {
             let mut scene = SceneFile::of_mesh(grid);
             scene.mesh.solution = Some(solution.clone());
-            Ok((scene, PathBuf::from(".")))
+            Ok((scene, PathBuf::new()))
         }
         _ => Err(Failure::Usage(
             "a scene file names its mesh itself: give one scene, one mesh, or a PLOT3D grid and its solution"

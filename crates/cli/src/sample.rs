@@ -16,7 +16,7 @@ pub(crate) fn run() -> Result<(), Failure> {
     line("thin intervals, each a fraction of what one cell spans: sampling at the cells' corners would miss them.\n");
     let scene = SceneFile::parse(SCENE, Path::new("sample.toml")).map_err(|e| Failure::Input(e.to_string()))?;
     let outputs = [PathBuf::from(DEFAULT_OUTPUT)];
-    let base_dir = PathBuf::from(".");
+    let base_dir = PathBuf::new();
     Job {
         scene,
         scene_path: None,

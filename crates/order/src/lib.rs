@@ -19,14 +19,16 @@
 //! assert_eq!(order.front_to_back, [CellId(1), CellId(0)]);
 //! ```
 //!
-//! [`Mpvo`] is right for all neighbors. [`Bucket`] and [`Centroid`] sort by one point of a cell and may be wrong for neighbors of
-//! different shape; they say so in their guarantee. [`misordered_faces`] counts how often any of them is.
+//! [`Bucket`] and [`Centroid`] sort by one point of a cell and may be wrong for neighbors of different shape. [`Mpvo`] is right for all
+//! neighbors, and so for convex meshes; [`BspXmpvo`] is right across the gaps of a mesh too, which [`BspTree`] knows. [`Power`] sorts
+//! by one key a cell, and proves for a mesh that this is exact, or says that it is not. [`MeshVisibility::judge`] counts what any
+//! order has wrong.
 //!
-//! [`Power`] sorts by one key a cell and proves for a mesh that it is exact, or says that it is not. [`BspTree`] finds what lies in
-//! front of what across the gaps of a mesh. Both are parts for renderers of one's own: no [`OrderMethod`] takes them yet.
+//! Cells that hide one another in a ring have no order. [`Mpvo`] and [`BspXmpvo`] report them in [`Order::cycles`];
+//! [`Order::cut_cycles`] cuts them so that there is one, or a back end sorts their pixels ([`CycleRemedy`]).
 //!
-//! Limits: in [`Mpvo`] cells with a gap of the mesh between them are ordered by their centroids; rings of cells are found and
-//! reported, not drawn rightly. The crate knows no color and no pixel.
+//! Limits: cells that overlap have no order either; [`MeshVisibility::piercing`] and the findings of `tetrascope-mesh` tell whether there
+//! are any. The crate knows no color and no pixel.
 
 mod bsp;
 mod bsp_xmpvo;
@@ -154,8 +156,8 @@ pub enum Guarantee {
 pub trait VisibilityOrder: std::fmt::Debug + Send + Sync {
     /// The `drawn` cells from front to back, seen from `viewpoint`.
     ///
-    /// Deterministic: the same arguments give the same permutation, whatever the number of threads. Cells that the method
-    /// cannot tell apart keep the order of `drawn`.
+    /// The same for any number of threads. Where some cells are on no common ray, their order may depend on the views before; nothing
+    /// that is drawn does.
     fn order(&self, cells: Cells<'_>, viewpoint: Viewpoint, drawn: &[CellId]) -> Order;
 
     /// Bytes that it keeps of the mesh from frame to frame, parts that it shares with other orders included.
