@@ -86,8 +86,8 @@ impl VolumeField<'_> {
                 }
             }
             _ => match rendered.order.guarantee {
+                Guarantee::Exact if visibility.is_convex(cells) => "exact: the mesh is convex".to_owned(),
                 Guarantee::Exact => "exact, across gaps of the mesh too".to_owned(),
-                Guarantee::Faces if visibility.is_convex(cells) => "exact: the mesh is convex".to_owned(),
                 Guarantee::Faces => format!("exact for neighbors{across_gaps}"),
                 _ => "not guaranteed: by one point of a cell, so that neighbors may come in the wrong order".to_owned(),
             },
