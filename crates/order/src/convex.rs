@@ -19,9 +19,10 @@ pub(crate) fn points_of(cells: Cells<'_>, face: CellFace) -> ([VertexId; 3], Ver
 
 /// Whether a mesh fills a convex body: then whatever a ray meets it meets without a gap.
 ///
-/// It does if its boundary is one closed surface that is nowhere bent inwards. Every edge is tested, without rounding; so a box
-/// whose sides are flat only to rounding is not convex. A mesh that overlaps itself or has faces of three cells is not, nor
-/// is one with cells without volume.
+/// It does if its boundary is one closed surface, and at each of its points no face's plane has another face of that point in front of
+/// it. Edges alone would not tell: a star of cells that winds twice about an axis is bent outwards at every edge. All is tested without
+/// rounding; so a box whose sides are flat only to rounding is not convex. A mesh that is folded or has faces of three cells is not, nor
+/// is one with cells without volume. Nor, by way of a bound on the work, is one with more than [`MOST_FACES`] boundary faces at a point.
 pub(crate) fn is_convex(cells: Cells<'_>, adjacency: &FaceAdjacency) -> bool {
     let boundary = adjacency.boundary_faces();
     if boundary.is_empty() || !adjacency.non_manifold_faces().is_empty() || !lies_flat(cells, adjacency) {
@@ -39,17 +40,32 @@ pub(crate) fn is_convex(cells: Cells<'_>, adjacency: &FaceAdjacency) -> bool {
     let is_two = |pair: &[([u32; 2], u32)]| pair.len() == 2 && pair[0].0 == pair[1].0;
     let is_closed =
         edges.chunks(2).all(is_two) && edges.chunks(2).zip(edges.chunks(2).skip(1)).all(|(a, b)| a[0].0 != b[0].0);
-    if !is_closed {
-        return false;
-    }
+    is_closed && is_connected(&edges, boundary.len()) && points_stand_out(cells, boundary)
+}
+
+/// Boundary faces at a point, beyond which a mesh does not count as convex. Each is compared with each.
+const MOST_FACES: usize = 512;
+
+/// Whether at every point of the boundary all of its faces lie behind the planes of all others.
+fn points_stand_out(cells: Cells<'_>, boundary: &[CellFace]) -> bool {
+    let mut corners: Vec<(VertexId, u32)> =
+        (0..).zip(boundary).flat_map(|(number, &face)| points_of(cells, face).0.map(|point| (point, number))).collect();
+    corners.par_sort_unstable();
     let position = |v: VertexId| cells.positions[v.index()];
-    let bends_outwards = |pair: &[([u32; 2], u32)]| {
-        let [face, other] = [pair[0].1, pair[1].1].map(|number| points_of(cells, boundary[number as usize]));
-        let apex = other.0.into_iter().find(|v| !pair[0].0.contains(&v.0));
-        let inside = side_of(face.0.map(position), position(face.1));
-        apex.is_some_and(|apex| inside != 0 && side_of(face.0.map(position), position(apex)) * inside >= 0)
-    };
-    edges.par_chunks(2).all(bends_outwards) && is_connected(&edges, boundary.len())
+    let around: Vec<&[(VertexId, u32)]> = corners.chunk_by(|a, b| a.0 == b.0).collect();
+    around.into_par_iter().all(|around| {
+        around.len() <= MOST_FACES
+            && around.iter().all(|&(_, number)| {
+                let (plane, apex) = points_of(cells, boundary[number as usize]);
+                let inside = side_of(plane.map(position), position(apex));
+                let is_behind =
+                    |v: VertexId| plane.contains(&v) || side_of(plane.map(position), position(v)) * inside >= 0;
+                inside != 0
+                    && around
+                        .iter()
+                        .all(|&(_, other)| points_of(cells, boundary[other as usize]).0.into_iter().all(is_behind))
+            })
+    })
 }
 
 /// Whether the two cells of every face lie on different sides of it, whatever the order of their points.
@@ -117,6 +133,19 @@ mod tests {
         );
         assert!(!convex(&apex(-DVec3::splat(1.0)), &[[0, 1, 2, 3], [0, 1, 2, 4]]), "bent inwards");
         assert!(!convex(&[], &[]));
+    }
+
+    /// Five cells about an axis, each turned by two fifths from the last: closed, bent outwards at every edge, and wound twice.
+    #[test]
+    fn a_star_that_winds_twice_is_not_convex() {
+        let around = |i: u32| {
+            let angle = f64::from(i) * std::f64::consts::TAU / 5.0;
+            DVec3::new(angle.cos(), angle.sin(), 0.0)
+        };
+        let points: Vec<DVec3> = [DVec3::Z, -DVec3::Z].into_iter().chain((0..5).map(around)).collect();
+        let about = |step: u32| -> Vec<[u32; 4]> { (0..5).map(|i| [0, 1, 2 + i, 2 + (i + step) % 5]).collect() };
+        assert!(convex(&points, &about(1)));
+        assert!(!convex(&points, &about(2)));
     }
 
     #[test]

@@ -27,8 +27,7 @@
 //! Cells that hide one another in a ring have no order. [`Mpvo`] and [`BspXmpvo`] report them in [`Order::cycles`];
 //! [`Order::cut_cycles`] cuts them so that there is one, or a back end sorts their pixels ([`CycleRemedy`]).
 //!
-//! Limits: cells that overlap have no order either; [`MeshVisibility::piercing`] and the findings of `tetrascope-mesh` tell whether there
-//! are any. The crate knows no color and no pixel.
+//! Limits: cells that overlap have no order either; [`MeshVisibility::overlaps`] tells whether there are any. The crate knows no color and no pixel.
 
 mod bsp;
 mod bsp_xmpvo;
@@ -41,7 +40,7 @@ mod gaps;
 mod judge;
 mod method;
 mod mpvo;
-mod piercing;
+mod overlaps;
 mod planes;
 mod power;
 mod radix;
@@ -63,7 +62,7 @@ pub use centroid::Centroid;
 pub use judge::{Relations, Verdict};
 pub use method::{OrderMethod, PixelSort, UnknownOrder};
 pub use mpvo::{Mpvo, misordered_faces};
-pub use piercing::Piercing;
+pub use overlaps::Overlaps;
 pub use power::{Budget, HeightSource, Heights, Power, PowerCertificate};
 pub use radix::{sort_by_key, sortable_bits};
 pub use remedy::{CycleRemedy, UnknownRemedy};

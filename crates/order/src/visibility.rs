@@ -2,13 +2,13 @@
 
 use std::sync::{Arc, OnceLock};
 
-use tetrascope_mesh::FaceAdjacency;
+use tetrascope_mesh::{CellId, FaceAdjacency};
 
 use crate::convex::is_convex;
-use crate::piercing::piercing;
+use crate::overlaps::{folded_pairs, overlaps};
 use crate::sides::FaceSides;
 use crate::{
-    BspTree, BspXmpvo, Bucket, Budget, Cells, Centroid, Heights, Mpvo, OrderMethod, Piercing, Power, PowerCertificate,
+    BspTree, BspXmpvo, Bucket, Budget, Cells, Centroid, Heights, Mpvo, OrderMethod, Overlaps, Power, PowerCertificate,
     Unordered, VisibilityOrder,
 };
 
@@ -21,6 +21,8 @@ pub struct MeshVisibility {
     sides: OnceLock<Arc<FaceSides>>,
     tree: OnceLock<Arc<BspTree>>,
     is_convex: OnceLock<bool>,
+    folded: OnceLock<Arc<[(CellId, CellId)]>>,
+    overlaps: OnceLock<Overlaps>,
     /// Whether the heights `|p|²` or those given are proven.
     quick: OnceLock<Arc<Power>>,
     power: OnceLock<Arc<Power>>,
@@ -68,9 +70,14 @@ impl MeshVisibility {
         *self.is_convex.get_or_init(|| is_convex(cells, self.adjacency(cells)))
     }
 
-    /// Parts of the boundary that stand in each other: where cells overlap, no order is right.
-    pub fn piercing(&self, cells: Cells<'_>) -> Piercing {
-        piercing(cells, self.adjacency(cells))
+    /// Where cells overlap, so that no order is right.
+    pub fn overlaps(&self, cells: Cells<'_>) -> Overlaps {
+        *self.overlaps.get_or_init(|| overlaps(cells, self.adjacency(cells), self.folded(cells).len()))
+    }
+
+    /// Pairs of cells that lie on one side of a face which both have.
+    pub(crate) fn folded(&self, cells: Cells<'_>) -> &Arc<[(CellId, CellId)]> {
+        self.folded.get_or_init(|| folded_pairs(cells, self.adjacency(cells)).into())
     }
 
     /// One key a cell, from the heights given or else from those that [`Heights::solve`] finds.
