@@ -165,7 +165,7 @@ fn render_here(mesh: &TetMesh, scalars: &[f64], plan: &Plan, progress: &dyn Prog
         sorted: fragments,
         most_held: 0,
     };
-    let order = OrderReport { guarantee: Guarantee::Exact, rings: 0 };
+    let order = OrderReport { guarantee: Guarantee::Exact, rings: 0, rings_left: 0 };
     Ok(Rendered { image, timings: watch.finish(), counts, order })
 }
 

@@ -26,6 +26,8 @@ pub struct OrderReport {
     pub guarantee: Guarantee,
     /// Rings of cells that hide one another, where the order looks for them; [`Counts::cyclic`] has their cells.
     pub rings: u64,
+    /// Of these, those that are there after cuts, if the plan asks for cuts.
+    pub rings_left: u64,
 }
 
 /// What was done for a picture.

@@ -9,7 +9,8 @@ pub enum CycleRemedy {
     /// They are blended by the distance of their centroids, and reported.
     #[default]
     Report,
-    /// Members are cut until no ring is left ([`Order::cut_cycles`](crate::Order::cut_cycles)).
+    /// Members are cut until no ring is left ([`Order::cut_cycles`](crate::Order::cut_cycles)); rings that cannot be cut, since their
+    /// cells overlap or are too many, are left to the pixels.
     Cut,
     /// The pixels that they cover are sorted ray by ray; a back end does that.
     PerPixel,

@@ -236,7 +236,8 @@ impl CpuRenderer {
         }
         watch.lap(Stage::Order);
 
-        let rings_sort = plan.cycles == CycleRemedy::PerPixel && !order.cycles.is_empty();
+        // Rings that could not be cut are left to the pixels.
+        let rings_sort = plan.cycles != CycleRemedy::Report && !order.cycles.is_empty();
         let mut in_ring = vec![false; if rings_sort { self.tetrahedra.len() } else { 0 }];
         if rings_sort {
             for cell in order.cycles.iter().flatten() {
@@ -331,7 +332,7 @@ impl CpuRenderer {
             PixelSort::All => Guarantee::Exact,
             PixelSort::None | PixelSort::Window(_) => order.guarantee,
         };
-        let order = OrderReport { guarantee, rings };
+        let order = OrderReport { guarantee, rings, rings_left: order.cycles.len() as u64 };
         Ok(Rendered { image, timings: watch.finish(), counts, order })
     }
 
