@@ -9,6 +9,7 @@ use spade::{DelaunayTriangulation, Point2, Triangulation};
 
 use crate::meshes::Random;
 use tetrascope::mesh::VertexId;
+use tetrascope::order::Cells;
 
 /// Points and tetrahedra over them, in a cube from about -1 to 1.
 #[derive(Clone, Debug, Default)]
@@ -26,6 +27,11 @@ pub struct Shape {
 }
 
 impl Shape {
+    /// As orders see it.
+    pub fn cells(&self) -> Cells<'_> {
+        Cells { positions: &self.points, tetrahedra: &self.tetrahedra }
+    }
+
     /// A cell's corners.
     pub fn corners(&self, cell: usize) -> [DVec3; 4] {
         self.tetrahedra[cell].map(|v| self.points[v.index()])
@@ -197,13 +203,21 @@ pub fn all(seed: u64) -> Vec<Shape> {
     ]
 }
 
-/// The cells that a ray meets for longer than `least`, nearest first, with the middles of their segments; in units of the direction.
+/// A cell's part of a ray, in units of the ray's direction.
+#[derive(Clone, Copy, Debug)]
+pub struct Span {
+    /// Where the ray enters and leaves it.
+    pub depth: [f64; 2],
+    /// The cell.
+    pub cell: usize,
+}
+
+/// The cells that a ray meets for longer than `least`, by the middles of their parts, nearest first.
 ///
 /// - `from`: where the ray begins; minus infinity for a whole line
-pub fn along_ray(shape: &Shape, origin: DVec3, direction: DVec3, from: f64, least: f64) -> Vec<(f64, usize)> {
-    let mut met = Vec::new();
-    for cell in 0..shape.tetrahedra.len() {
-        let corners = shape.corners(cell);
+pub fn along_ray(cells: Cells<'_>, origin: DVec3, direction: DVec3, from: f64, least: f64) -> Vec<Span> {
+    let span = |(cell, corners): (usize, &[VertexId; 4])| {
+        let corners = corners.map(|v| cells.positions[v.index()]);
         let (mut start, mut end) = (from, f64::INFINITY);
         for i in 0..4 {
             let [a, b, c] = [1, 2, 3].map(|k| corners[(i + k) % 4]);
@@ -215,14 +229,13 @@ pub fn along_ray(shape: &Shape, origin: DVec3, direction: DVec3, from: f64, leas
             } else if slope < 0.0 {
                 end = f64::min(end, -height / slope);
             } else if height < 0.0 {
-                end = f64::NEG_INFINITY;
+                return None;
             }
         }
-        if end - start > least {
-            met.push((0.5 * (start + end), cell));
-        }
-    }
-    met.sort_by(|a, b| a.0.total_cmp(&b.0));
+        (end - start > least).then_some(Span { depth: [start, end], cell })
+    };
+    let mut met: Vec<Span> = cells.tetrahedra.iter().enumerate().filter_map(span).collect();
+    met.sort_by(|a, b| (a.depth[0] + a.depth[1]).total_cmp(&(b.depth[0] + b.depth[1])));
     met
 }
 
@@ -245,7 +258,7 @@ mod tests {
                 let lines = (0..20).map(|_| {
                     let corners = shape.corners((random.unit() * shape.tetrahedra.len() as f64) as usize);
                     let middle = corners.iter().sum::<DVec3>() / 4.0;
-                    along_ray(shape, middle, random.point(), f64::NEG_INFINITY, 1e-9).len()
+                    along_ray(shape.cells(), middle, random.point(), f64::NEG_INFINITY, 1e-9).len()
                 });
                 let met: usize = lines.sum();
                 assert!(met > 60, "{}: {met} cells on 20 lines", shape.name);

@@ -2,10 +2,12 @@
 
 use std::sync::Arc;
 
+use rayon::prelude::*;
 use tetrascope_mesh::CellId;
 use tetrascope_view::Viewpoint;
 
 use crate::gaps::Gaps;
+use crate::overlaps::both_ways;
 use crate::{BspTree, Cells, Guarantee, Mpvo, Order, VisibilityOrder};
 
 /// [`Mpvo`] with the relations that it misses where a mesh is not convex: those that [`BspTree::arrows`] finds across gaps.
@@ -23,11 +25,13 @@ pub struct BspXmpvo {
     mpvo: Mpvo,
     /// `None` where the mesh is convex.
     tree: Option<Arc<BspTree>>,
+    /// Whether cells of the mesh are known to overlap.
+    overlaps: bool,
 }
 
 impl BspXmpvo {
-    pub(crate) fn with_parts(mpvo: Mpvo, tree: Option<Arc<BspTree>>) -> Self {
-        Self { mpvo, tree }
+    pub(crate) fn with_parts(mpvo: Mpvo, tree: Option<Arc<BspTree>>, overlaps: bool) -> Self {
+        Self { mpvo, tree, overlaps }
     }
 }
 
@@ -51,10 +55,19 @@ impl VisibilityOrder for BspXmpvo {
                     arrows.push((front, back));
                 }
             });
+            if !self.mpvo.folded().is_empty() {
+                arrows.extend(both_ways(self.mpvo.folded()));
+                arrows.par_sort_unstable();
+                arrows.dedup();
+            }
             (Gaps::new(cells.tetrahedra.len(), &arrows), report.is_complete)
         };
         let (bytes, (gaps, is_complete)) = rayon::join(|| self.mpvo.waiting(cells, viewpoint), across);
-        let guarantee = if is_complete { Guarantee::Exact } else { Guarantee::Faces };
+        let guarantee = match is_complete {
+            true if self.overlaps => Guarantee::Overlapping,
+            true => Guarantee::Exact,
+            false => Guarantee::Faces,
+        };
         self.mpvo.swept(cells, viewpoint, drawn, bytes, &gaps, guarantee)
     }
 }

@@ -4,6 +4,7 @@ use rayon::prelude::*;
 use tetrascope_mesh::CellId;
 use tetrascope_view::Viewpoint;
 
+use crate::overlaps::both_ways;
 use crate::sides::neighbor;
 use crate::{Cells, MeshVisibility};
 
@@ -74,6 +75,12 @@ impl MeshVisibility {
         // A convex mesh has no gaps.
         let gaps_complete = self.is_convex(cells)
             || self.tree(cells).arrows(viewpoint, &mut |front, back| arrows.push((front, back))).is_complete;
+        // Cells that overlap at a face hide one another.
+        if !self.folded(cells).is_empty() {
+            arrows.extend(both_ways(self.folded(cells)));
+            arrows.par_sort_unstable();
+            arrows.dedup();
+        }
         let rings = rings(&nearer, table, &arrows);
         let mut ring_of = vec![0; nearer.len()];
         for (number, ring) in (1..).zip(&rings) {

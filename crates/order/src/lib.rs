@@ -147,6 +147,9 @@ pub enum Guarantee {
     Faces,
     /// Of two cells on one ray the nearer one comes first, but for the cells in [`Order::cycles`].
     Exact,
+    /// The same for cells that do not overlap; but some of the mesh do ([`Overlaps`]), and those have no order. Where they share a face
+    /// they are in [`Order::cycles`] too.
+    Overlapping,
 }
 
 /// A way to sort cells by visibility.

@@ -10,6 +10,7 @@ use crate::centroid::nearest_first;
 use crate::convex::is_convex;
 use crate::cycles::{Arrows, groups};
 use crate::gaps::Gaps;
+use crate::overlaps::{both_ways, folded_pairs};
 use crate::repair::Kept;
 use crate::sides::{FaceSides, neighbor};
 use crate::sweep::{is_left, sweep, waiting};
@@ -22,7 +23,7 @@ use crate::{Cells, Guarantee, Order, VisibilityOrder};
 /// centroid comes first. That is a guess, and where a mesh is not convex it may be wrong.
 ///
 /// Planes are evaluated exactly, and with one result for both cells: a face seen edge-on orders nothing. Where cells hide one
-/// another in a ring, no order is right: the ring is reported in [`Order::cycles`], its cells stand together by the distance of
+/// another in a ring, or overlap at a face, no order is right: the ring is reported in [`Order::cycles`], its cells stand together by the distance of
 /// their centroids, and all others come right.
 ///
 /// Time linear in the number of cells of the mesh but for the sort of the boundary, where it is not convex; all cells take part, also
@@ -39,6 +40,8 @@ pub struct Mpvo {
     sides: Arc<FaceSides>,
     /// The cells of the boundary; `None` where the mesh is convex.
     boundary: Option<Arc<[CellId]>>,
+    /// Cells on one side of a face that both have: they overlap, and each hides the other.
+    folded: Arc<[(CellId, CellId)]>,
     /// The order of the last view, where faces alone decide all.
     last: Arc<Mutex<Kept>>,
 }
@@ -53,15 +56,27 @@ impl Mpvo {
         let adjacency = FaceAdjacency::new(cells.tetrahedra);
         let sides = FaceSides::new(cells, &adjacency);
         let is_convex = is_convex(cells, &adjacency);
-        Self::with_parts(Arc::new(adjacency), Arc::new(sides), is_convex)
+        let folded = folded_pairs(cells, &adjacency).into();
+        Self::with_parts(Arc::new(adjacency), Arc::new(sides), is_convex, folded)
     }
 
-    pub(crate) fn with_parts(adjacency: Arc<FaceAdjacency>, sides: Arc<FaceSides>, is_convex: bool) -> Self {
+    /// - `folded`: of [`folded_pairs`]; none where the mesh is convex
+    pub(crate) fn with_parts(
+        adjacency: Arc<FaceAdjacency>,
+        sides: Arc<FaceSides>,
+        is_convex: bool,
+        folded: Arc<[(CellId, CellId)]>,
+    ) -> Self {
         let table = adjacency.table();
         let is_outer = |cell: &u32| table[*cell as usize].contains(&FaceAdjacency::NONE);
         let boundary =
             (!is_convex).then(|| (0..table.len() as u32).into_par_iter().filter(is_outer).map(CellId).collect());
-        Self { adjacency, sides, boundary, last: Arc::default() }
+        Self { adjacency, sides, boundary, folded, last: Arc::default() }
+    }
+
+    /// Cells that overlap their neighbors, pair by pair.
+    pub(crate) fn folded(&self) -> &[(CellId, CellId)] {
+        &self.folded
     }
 
     /// What every cell waits for, as [`sweep`] takes it.
@@ -145,6 +160,12 @@ impl Mpvo {
     /// The order where gaps are guessed across by the centroids of the boundary's cells.
     fn guessed(&self, cells: Cells<'_>, viewpoint: Viewpoint, drawn: &[CellId], boundary: &[CellId]) -> Order {
         let count = self.sides.len();
+        let all = || (0..count as u32).map(CellId).collect();
+        if !self.folded.is_empty() {
+            // The same in both directions.
+            let gaps = Gaps::new(count, &both_ways(&self.folded));
+            return self.with_rings(cells, viewpoint, drawn, (Vec::new(), all()), &gaps, Guarantee::Faces);
+        }
         let (mut state, sorted) =
             rayon::join(|| self.sides.nearer_neighbors(cells, viewpoint), || nearest_first(cells, viewpoint, boundary));
         let mut placed = Vec::with_capacity(count);
@@ -152,8 +173,7 @@ impl Mpvo {
         if !is_cyclic {
             return Order::whole(only_drawn(placed, count, drawn), Guarantee::Faces);
         }
-        let all = (0..count as u32).map(CellId).collect();
-        self.with_rings(cells, viewpoint, drawn, (Vec::new(), all), &Gaps::default(), Guarantee::Faces)
+        self.with_rings(cells, viewpoint, drawn, (Vec::new(), all()), &Gaps::default(), Guarantee::Faces)
     }
 
     /// Places cells after all that lie in front of them; gives whether a ring had to be broken.

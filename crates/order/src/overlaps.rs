@@ -86,6 +86,13 @@ pub(crate) fn folded_pairs(cells: Cells<'_>, adjacency: &FaceAdjacency) -> Vec<(
     pairs
 }
 
+/// Pairs as relations: each cell hides the other.
+pub(crate) fn both_ways(pairs: &[(CellId, CellId)]) -> Vec<(CellId, CellId)> {
+    let mut relations: Vec<(CellId, CellId)> = pairs.iter().flat_map(|&(a, b)| [(a, b), (b, a)]).collect();
+    relations.par_sort_unstable();
+    relations
+}
+
 /// Cells at one face that one of them is paired with: enough that all hang together, however many there are.
 const MOST_AT_A_FACE: usize = 8;
 

@@ -136,6 +136,12 @@ impl MeshVisibility {
             return OrderChoice { method: OrderMethod::Power, reason };
         }
         if !self.is_convex(cells) {
+            let overlaps = self.overlaps(cells);
+            if overlaps.piercing > 0 || overlaps.contained > 0 {
+                let reason =
+                    "parts of the mesh stand in one another, where no order of cells is right: every pixel sorts";
+                return OrderChoice { method: OrderMethod::PerPixel, reason };
+            }
             let reason = "the mesh is not convex: neighbors by their faces, and across gaps by the boundary's";
             return OrderChoice { method: OrderMethod::BspXmpvo, reason };
         }
@@ -143,7 +149,12 @@ impl MeshVisibility {
     }
 
     fn mpvo(&self, cells: Cells<'_>) -> Mpvo {
-        Mpvo::with_parts(Arc::clone(self.adjacency(cells)), Arc::clone(self.sides(cells)), self.is_convex(cells))
+        Mpvo::with_parts(
+            Arc::clone(self.adjacency(cells)),
+            Arc::clone(self.sides(cells)),
+            self.is_convex(cells),
+            Arc::clone(self.folded(cells)),
+        )
     }
 
     /// A method, ready for the mesh: what it has to know of it is learned here, once.
@@ -158,7 +169,8 @@ impl MeshVisibility {
             OrderMethod::Mpvo => Arc::new(self.mpvo(cells)),
             OrderMethod::BspXmpvo => {
                 let tree = (!self.is_convex(cells)).then(|| Arc::clone(self.tree(cells)));
-                Arc::new(BspXmpvo::with_parts(self.mpvo(cells), tree))
+                let overlaps = !self.is_convex(cells) && self.overlaps(cells).any();
+                Arc::new(BspXmpvo::with_parts(self.mpvo(cells), tree, overlaps))
             }
         }
     }

@@ -141,8 +141,8 @@ fn parts_that_interpenetrate() {
     let cyclic = check(&raw, "interpenetrating blocks");
     // From outside some faces that pierce each other hide each other; from the middle all are left outwards.
     assert!(cyclic[..4].iter().all(|&cells| cells > 0), "{cyclic:?}");
-    let piercing = MeshVisibility::new().piercing(raw.cells());
-    assert!(piercing.pairs > 100 && piercing.is_complete, "{piercing:?}");
+    let overlaps = MeshVisibility::new().overlaps(raw.cells());
+    assert!(overlaps.piercing > 100 && overlaps.is_complete, "{overlaps:?}");
 }
 
 /// Nothing, and one cell.

@@ -2,5 +2,6 @@
 
 mod generated;
 mod hard;
+mod rays;
 mod real;
 mod views;

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use glam::DVec3;
 use tetrascope::mesh::rings_sample;
-use tetrascope::order::{CycleRemedy, OrderMethod};
+use tetrascope::order::{Bucket, CycleRemedy, OrderMethod};
 use tetrascope::{
     Camera, CpuRenderer, LinearImage, OpticalModel, Plan, Projection, Silent, TransferFunction, View, Volume,
 };
@@ -22,22 +22,38 @@ const VISIBLE: f64 = 1.0 / 255.0;
 const ROUNDING: f64 = 1e-5;
 
 /// From where meshes are looked at, as directions from their middle; the second number is the distance in radii. The last one is inside.
-const VIEWS: [([f64; 3], f64); 4] =
-    [([0.8, 0.3, 0.52], 3.0), ([-0.2, 0.9, -0.38], 3.0), ([0.1, -0.6, 0.8], 1.2), ([0.3, 0.2, 0.1], 0.35)];
+const VIEWS: [([f64; 3], f64); 5] = [
+    ([0.8, 0.3, 0.52], 3.0),
+    ([-0.2, 0.9, -0.38], 3.0),
+    ([0.02, 0.03, 1.0], 4.0),
+    ([0.1, -0.6, 0.8], 1.2),
+    ([0.3, 0.2, 0.1], 0.35),
+];
+
+/// An order, and what is done about rings of cells.
+struct Way {
+    name: String,
+    method: OrderMethod,
+    cycles: CycleRemedy,
+}
 
 /// Orders, from the cheapest; the last ones promise to be right.
-fn orders() -> Vec<(String, OrderMethod)> {
-    let mut orders: Vec<(String, OrderMethod)> = ["none", "bucket", "centroid"]
-        .into_iter()
-        .filter_map(|name| Some((name.to_owned(), name.parse().ok()?)))
-        .collect();
+fn ways() -> Vec<Way> {
+    let report = |name: &str, method| Way { name: name.to_owned(), method, cycles: CycleRemedy::Report };
+    let mut ways = vec![
+        report("none", OrderMethod::None),
+        report("bucket", OrderMethod::Bucket { slabs: Bucket::DEFAULT_SLABS }),
+        report("centroid", OrderMethod::Centroid),
+    ];
     for window in [2, 6, 32] {
-        orders.push((format!("k-buffer, {window}"), OrderMethod::KBuffer { window }));
+        ways.push(report(&format!("k-buffer, {window}"), OrderMethod::KBuffer { window }));
     }
     for method in [OrderMethod::Power, OrderMethod::Mpvo, OrderMethod::BspXmpvo] {
-        orders.push((method.to_string(), method));
+        ways.push(report(&method.to_string(), method));
     }
-    orders
+    let (method, cycles) = (OrderMethod::BspXmpvo, CycleRemedy::PerPixel);
+    ways.push(Way { name: "bsp-xmpvo, rings per-pixel".to_owned(), method, cycles });
+    ways
 }
 
 /// A mesh to be drawn: its name in the table, its file beside the repository, and the field.
@@ -77,8 +93,8 @@ struct Wrong {
 ///
 /// - `data`: the folder of the meshes beside the repository; `None` measures the built-in sample alone
 pub(super) fn tables(data: Option<&Path>, only: &str) -> Result<String, Failure> {
-    let orders = orders();
-    let names: Vec<&str> = orders.iter().map(|(name, _)| name.as_str()).collect();
+    let ways = ways();
+    let names: Vec<&str> = ways.iter().map(|way| way.name.as_str()).collect();
     let head = |text: &mut String, title: &str| {
         let _ = writeln!(text, "### {title}\n");
         let _ = writeln!(text, "| Mesh | Tetrahedra | {} |", names.join(" | "));
@@ -89,7 +105,7 @@ pub(super) fn tables(data: Option<&Path>, only: &str) -> Result<String, Failure>
     head(&mut peaks, "Thin peaks");
     let mut add = |name: &str, volume: &Volume, field: Option<&str>| -> Result<(), Failure> {
         for (text, is_thin) in [(&mut smooth, false), (&mut peaks, true)] {
-            let row = row(volume, field, is_thin, &orders)?;
+            let row = row(volume, field, is_thin, &ways)?;
             let cells: Vec<String> = row.iter().map(cell).collect();
             let tetrahedra = volume.decomposition.mesh.tetrahedra().len();
             let _ = writeln!(text, "| {name} | {tetrahedra} | {} |", cells.join(" | "));
@@ -109,30 +125,25 @@ pub(super) fn tables(data: Option<&Path>, only: &str) -> Result<String, Failure>
 }
 
 /// What every order does to a mesh.
-fn row(
-    volume: &Volume,
-    field: Option<&str>,
-    is_thin: bool,
-    orders: &[(String, OrderMethod)],
-) -> Result<Vec<Wrong>, Failure> {
+fn row(volume: &Volume, field: Option<&str>, is_thin: bool, ways: &[Way]) -> Result<Vec<Wrong>, Failure> {
     let field = volume.field(field)?;
     let (low, high) = field.facts.scalar_range;
     let diagonal = field.facts.diagonal();
     let transfer = if is_thin { thin_peaks(low, high, diagonal)? } else { smooth(low, high, diagonal)? };
     let renderer = CpuRenderer::new(field.on_mesh.mesh.as_ref(), &field.on_mesh.scalars)?;
-    let mut row = vec![Wrong::default(); orders.len()];
+    let mut row = vec![Wrong::default(); ways.len()];
     for (away, radii) in VIEWS {
         let center = field.facts.center();
         let eye = center + DVec3::from(away).normalize() * (radii * diagonal / 2.0);
         let fov_y = if radii < 1.0 { 1.4 } else { 0.75 };
         let camera = Camera { eye, target: center, up: DVec3::Z, projection: Projection::Perspective { fov_y } };
         let view = View::new(&camera, SIDE, SIDE)?;
-        let plan =
-            Plan { cycles: CycleRemedy::Report, ..Plan::new(view, transfer.clone(), OpticalModel::DensityEmitter) };
-        let draw = |order| Ok::<_, Failure>(renderer.render(&Plan { order, ..plan.clone() }, &Silent)?.image);
-        let exact = draw(OrderMethod::PerPixel)?;
-        for ((_, method), wrong) in orders.iter().zip(&mut row) {
-            wrong.compare(&exact, &draw(*method)?);
+        let plan = Plan::new(view, transfer.clone(), OpticalModel::DensityEmitter);
+        let draw =
+            |order, cycles| Ok::<_, Failure>(renderer.render(&Plan { order, cycles, ..plan.clone() }, &Silent)?.image);
+        let exact = draw(OrderMethod::PerPixel, CycleRemedy::Report)?;
+        for (way, wrong) in ways.iter().zip(&mut row) {
+            wrong.compare(&exact, &draw(way.method, way.cycles)?);
         }
     }
     Ok(row)
