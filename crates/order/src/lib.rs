@@ -46,6 +46,7 @@ mod radix;
 mod remedy;
 mod repair;
 mod sides;
+mod steps;
 mod sweep;
 mod unordered;
 mod visibility;

@@ -1,7 +1,6 @@
-//! Keys of cells, how sure they are, and their 32 bits for the radix sort.
+//! Keys of cells, and how sure they are.
 
 use glam::DVec3;
-use rayon::prelude::*;
 use tetrascope_view::Viewpoint;
 
 use super::certify::determinant;
@@ -118,57 +117,5 @@ impl CellKey {
                 error: KEY_ROUNDING * steepest * direction.abs().element_sum(),
             },
         }
-    }
-}
-
-/// Equal steps from the lowest key to the highest, 2³² of them.
-///
-/// Equal steps rather than the bits of an f32: keys are spread over their range, and near zero they need not be finer.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Steps {
-    low: f64,
-    per_key: f64,
-}
-
-impl Steps {
-    pub(super) fn between(low: f64, high: f64) -> Self {
-        let per_key = f64::from(u32::MAX) / (high - low);
-        // One key alone, or none, or not finite: all cells share step 0.
-        let per_key = if per_key.is_finite() { per_key } else { 0.0 };
-        Self { low, per_key }
-    }
-
-    #[inline]
-    pub(super) fn step(&self, key: f64) -> u32 {
-        ((key - self.low) * self.per_key) as u32
-    }
-
-    /// Whether an error stays below half a step.
-    #[inline]
-    pub(super) fn is_sure(&self, error: f64) -> bool {
-        const SURE: f64 = 0.49;
-        error.is_finite() && error * self.per_key <= SURE
-    }
-
-    /// Ranges of steps, first and last, in which some key's error reaches beyond the neighboring step; disjoint, ascending.
-    ///
-    /// Other keys two steps apart are in the right order: each errs by less than half a step.
-    pub(super) fn unsure(&self, keys: impl ParallelIterator<Item = Key>) -> Vec<[u32; 2]> {
-        let mut ranges: Vec<[u32; 2]> = keys
-            .filter(|key| !self.is_sure(key.error))
-            .map(|key| {
-                let (middle, reach) = (f64::from(self.step(key.value)), key.error * self.per_key + 2.0);
-                [(middle - reach).floor() as u32, (middle + reach).ceil() as u32]
-            })
-            .collect();
-        ranges.sort_unstable();
-        let mut merged: Vec<[u32; 2]> = Vec::new();
-        for range in ranges {
-            match merged.last_mut() {
-                Some(last) if range[0] <= last[1] => last[1] = last[1].max(range[1]),
-                _ => merged.push(range),
-            }
-        }
-        merged
     }
 }

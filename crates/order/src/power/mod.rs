@@ -18,7 +18,6 @@ mod lifted;
 mod quadratic;
 mod relax;
 mod settle;
-mod sort;
 
 pub use certify::PowerCertificate;
 pub use heights::{Budget, HeightSource, Heights};
@@ -139,7 +138,7 @@ impl VisibilityOrder for Power {
             keys::precise_key(positions, corners.map(|v| self.heights[v.index()]), viewpoint)
         };
         let closer = Closer { cells, viewpoint, key: |cell| self.key(cell, viewpoint), precise };
-        Order::whole(settle(&Frame::new(self, viewpoint, drawn), drawn, &closer), guarantee)
+        Order::whole(settle(Frame::new(self, viewpoint, drawn), &closer), guarantee)
     }
 }
 

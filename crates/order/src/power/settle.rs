@@ -2,7 +2,6 @@
 
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
-use std::ops::Range;
 
 use rayon::prelude::*;
 use robust::orient3d;
@@ -21,9 +20,6 @@ const FEW: usize = 12;
 /// Keys of twice the precision, about a microsecond each, that are worth a task.
 const PRECISE_PER_TASK: usize = 32;
 
-/// Steps that one task looks through for runs.
-const STEPS_PER_TASK: usize = 1 << 14;
-
 /// What telling cells apart takes.
 #[derive(Clone, Copy)]
 pub(super) struct Closer<'a, K, P> {
@@ -35,47 +31,13 @@ pub(super) struct Closer<'a, K, P> {
     pub(super) precise: P,
 }
 
-/// Cells from front to back, from cells sorted by their steps: puts right those whose steps do not tell, equal or neighboring
-/// ones and those in a range of `unsure`.
-pub(super) fn settle<K, P>(frame: &Frame, drawn: &[CellId], closer: &Closer<'_, K, P>) -> Vec<CellId>
+/// Cells from front to back, from cells sorted by their steps: puts right those whose steps do not tell.
+pub(super) fn settle<K, P>(frame: Frame, closer: &Closer<'_, K, P>) -> Vec<CellId>
 where
     K: Fn(CellId) -> Key + Sync,
     P: Fn(CellId) -> Option<Double> + Sync,
 {
-    let cell = |item: &u64| drawn[*item as u32 as usize];
-    let mut front_to_back: Vec<CellId> = frame.sorted.par_iter().map(cell).collect();
-    let step = |place: usize| (frame.sorted[place] >> 32) as u32;
-    let is_joined = |place: usize| {
-        let (before, after) = (step(place - 1), step(place));
-        after - before < 2 || {
-            // The first range that does not end before.
-            let range = frame.unsure.partition_point(|range| range[1] < after);
-            frame.unsure.get(range).is_some_and(|&[first, _]| first <= before)
-        }
-    };
-    // Runs by where they begin.
-    let runs: Vec<Range<usize>> = (0..frame.sorted.len().div_ceil(STEPS_PER_TASK))
-        .into_par_iter()
-        .flat_map_iter(|task| {
-            let end = ((task + 1) * STEPS_PER_TASK).min(frame.sorted.len());
-            let mut runs = Vec::new();
-            let mut place = task * STEPS_PER_TASK;
-            while place < end && place > 0 && is_joined(place) {
-                place += 1;
-            }
-            while place < end {
-                let start = place;
-                place += 1;
-                while place < frame.sorted.len() && is_joined(place) {
-                    place += 1;
-                }
-                if place - start > 1 {
-                    runs.push(start..place);
-                }
-            }
-            runs
-        })
-        .collect();
+    let Frame { mut front_to_back, runs } = frame;
     let settled: Vec<Vec<CellId>> =
         runs.par_iter().map(|run| settle_run(&front_to_back[run.clone()], closer)).collect();
     for (run, members) in runs.into_iter().zip(settled) {
