@@ -43,7 +43,7 @@ pub fn sort_by_key(items: &mut Vec<(u32, CellId)>) {
     let dealt = Dealt::new(items.len(), bits_for(u64::from(high - low)) + place_bits, |places, words| {
         words.extend(places.map(|place| u64::from(items[place].0 - low) << place_bits | place as u64));
     });
-    let (sorted, _) = dealt.0.sort((0, CellId(0)), |_, words, sorted| {
+    let (sorted, _) = dealt.sort((0, CellId(0)), |_, words, sorted| {
         for (item, word) in sorted.iter_mut().zip(words) {
             *item = items[(word & ones(place_bits)) as usize];
         }
@@ -88,27 +88,23 @@ struct Scratch {
 }
 
 impl Dealt {
-    /// Deals words, and gives what `fill` returned for each chunk, in order, with the places of the chunk.
+    /// Deals words.
     ///
     /// - `bits`: words are below 2 to the power of it; at most 63
     /// - `fill`: appends the words of these places
-    pub(crate) fn new<S: Send>(
-        count: usize,
-        bits: u32,
-        fill: impl Fn(Range<usize>, &mut Vec<u64>) -> S + Sync,
-    ) -> (Self, Vec<(Range<usize>, S)>) {
+    pub(crate) fn new(count: usize, bits: u32, fill: impl Fn(Range<usize>, &mut Vec<u64>) + Sync) -> Self {
         let bucket_bits = bits_for((count / WORDS_PER_BUCKET) as u64).min(MOST_BUCKET_BITS).min(bits);
         let (buckets, low_bits) = (1 << bucket_bits, bits - bucket_bits);
-        let (chunks, found) = (0..count.div_ceil(WORDS_PER_CHUNK))
+        let chunks = (0..count.div_ceil(WORDS_PER_CHUNK))
             .into_par_iter()
             .map_init(Vec::new, |words, chunk| {
                 let places = chunk * WORDS_PER_CHUNK..((chunk + 1) * WORDS_PER_CHUNK).min(count);
                 words.clear();
-                let found = fill(places.clone(), words);
-                (Chunk::new(words, buckets, low_bits), (places, found))
+                fill(places, words);
+                Chunk::new(words, buckets, low_bits)
             })
-            .unzip();
-        (Self { chunks, buckets, low_bits }, found)
+            .collect();
+        Self { chunks, buckets, low_bits }
     }
 
     /// Sorts, the lowest first; gives what `read` made of every word, and what it returned for each bucket, both in order.

@@ -66,13 +66,21 @@ impl Steps {
         }
     }
 
-    /// Not a number has step 0.
+    /// What is not a number has the step of the lowest of the equal ones.
     #[inline]
     pub(crate) fn step(&self, key: f64) -> u64 {
-        let inside = key.max(self.low).min(self.high);
-        let beyond = key - inside;
-        let share = 1.0 - 1.0 / (1.0 + beyond.abs() * self.tail_per_key);
-        ((inside - self.low) * self.per_key + self.tail + self.tail * share.copysign(beyond)) as u64
+        // Comparisons rather than `max` and `min`, which look for NaN.
+        let above = if key > self.low { key } else { self.low };
+        let inside = if above < self.high { above } else { self.high };
+        let mut step = (inside - self.low) * self.per_key + self.tail;
+        if key > self.high || key < self.low {
+            let beyond = key - inside;
+            let share = 1.0 - 1.0 / (1.0 + beyond.abs() * self.tail_per_key);
+            step += self.tail * share.copysign(beyond);
+        }
+        // From 2⁵² on, floats are whole numbers one apart: rounds, in less than a checked conversion.
+        const WHOLE: f64 = (1_u64 << 52) as f64;
+        (step + WHOLE).to_bits() - WHOLE.to_bits()
     }
 
     /// Whether an error stays below half a step.
@@ -147,7 +155,7 @@ impl<'a> Drawn<'a> {
 pub(crate) fn sort_cells(drawn: &[CellId], key: impl Fn(CellId) -> f64 + Sync) -> Vec<CellId> {
     let drawn = Drawn::new(drawn);
     let steps = Steps::new(&drawn, &key);
-    let (dealt, _) = Dealt::new(drawn.cells.len(), steps.word_bits(), |places, words| {
+    let dealt = Dealt::new(drawn.cells.len(), steps.word_bits(), |places, words| {
         words.extend(drawn.at(places).map(|(cell, payload)| steps.word(key(cell), payload)));
     });
     dealt.sort(CellId(0), |_, words, cells| drawn.read(words, cells)).0

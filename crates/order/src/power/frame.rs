@@ -2,6 +2,7 @@
 
 use std::ops::Range;
 
+use rayon::prelude::*;
 use tetrascope_mesh::CellId;
 use tetrascope_view::Viewpoint;
 
@@ -28,35 +29,30 @@ impl Frame {
     pub(super) fn new(power: &Power, viewpoint: Viewpoint, drawn: &[CellId]) -> Self {
         // Once for every cell's loop, so that the compiler sees which.
         match viewpoint {
-            Viewpoint::Eye(eye) => Self::by(drawn, |cell| power.key(cell, Viewpoint::Eye(eye))),
-            Viewpoint::Direction(along) => Self::by(drawn, |cell| power.key(cell, Viewpoint::Direction(along))),
+            Viewpoint::Eye(eye) => {
+                let offset = eye - power.center;
+                Self::by(power, viewpoint, drawn, |cell| power.keys[cell.index()].from_eye(offset))
+            }
+            Viewpoint::Direction(along) => {
+                Self::by(power, viewpoint, drawn, |cell| power.keys[cell.index()].along(along))
+            }
         }
     }
 
-    fn by(drawn: &[CellId], key: impl Fn(CellId) -> Key + Sync) -> Self {
+    fn by(power: &Power, viewpoint: Viewpoint, drawn: &[CellId], value: impl Fn(CellId) -> f64 + Sync) -> Self {
         let listed = Drawn::new(drawn);
-        let steps = Steps::new(&listed, |cell| key(cell).value);
-        let (dealt, errors) = Dealt::new(drawn.len(), steps.word_bits(), |places, words| {
-            let mut largest = 0.0;
-            words.extend(listed.at(places).map(|(cell, payload)| {
-                let Key { value, error } = key(cell);
-                // What is no number is the largest error.
-                largest = if error <= largest {
-                    largest
-                } else if error.is_nan() {
-                    f64::INFINITY
-                } else {
-                    error
-                };
-                steps.word(value, payload)
-            }));
-            largest
+        let steps = Steps::new(&listed, &value);
+        let dealt = Dealt::new(drawn.len(), steps.word_bits(), |places, words| {
+            words.extend(listed.at(places).map(|(cell, payload)| steps.word(value(cell), payload)));
         });
         // Most frames have no key that is less sure than a step.
-        let doubtful = errors.into_iter().filter(|(_, error)| !steps.is_sure(*error));
-        let unsure = unsure(&steps, doubtful.flat_map(|(places, _)| &drawn[places]).map(|&cell| key(cell)));
+        let unsure = if steps.is_sure(power.extent.error(viewpoint, power.center, power.reach)) {
+            Vec::new()
+        } else {
+            unsure(&steps, drawn.par_iter().map(|&cell| power.key(cell, viewpoint)))
+        };
         let is_joined = |before: u64, after: u64| {
-            after - before < 2 || {
+            after - before < 2 || !unsure.is_empty() && {
                 // The first range that does not end before.
                 let range = unsure.partition_point(|range| range[1] < after);
                 unsure.get(range).is_some_and(|&[first, _]| first <= before)
@@ -106,7 +102,7 @@ fn join(parts: Vec<Part>, is_joined: impl Fn(u64, u64) -> bool) -> Vec<Range<usi
 /// Ranges of steps, first and last, in which some key's error reaches beyond the neighboring step; disjoint, ascending.
 ///
 /// Other keys two steps apart are in the right order: each errs by less than half a step.
-fn unsure(steps: &Steps, keys: impl Iterator<Item = Key>) -> Vec<[u64; 2]> {
+fn unsure(steps: &Steps, keys: impl ParallelIterator<Item = Key>) -> Vec<[u64; 2]> {
     let mut ranges: Vec<[u64; 2]> = keys
         .filter(|key| !steps.is_sure(key.error))
         .map(|Key { value, error }| {

@@ -104,18 +104,58 @@ impl CellKey {
     /// against it, the slope along it.
     #[inline]
     pub(super) fn at(&self, viewpoint: Viewpoint, center: DVec3, reach: f64) -> Key {
-        let steepest = self.gradient.abs().max_element();
         match viewpoint {
             Viewpoint::Eye(eye) => {
                 let offset = eye - center;
-                let value = -(self.constant + self.gradient.dot(offset));
-                let magnitude = self.constant.abs() + steepest * (offset.abs().element_sum() + reach);
-                Key { value, error: KEY_ROUNDING * magnitude }
+                Key { value: self.from_eye(offset), error: self.extent().error(viewpoint, center, reach) }
             }
-            Viewpoint::Direction(direction) => Key {
-                value: self.gradient.dot(direction),
-                error: KEY_ROUNDING * steepest * direction.abs().element_sum(),
-            },
+            Viewpoint::Direction(direction) => {
+                Key { value: self.along(direction), error: self.extent().error(viewpoint, center, reach) }
+            }
+        }
+    }
+
+    /// The value of the key for an eye, as offset from the center.
+    #[inline(always)]
+    pub(super) fn from_eye(&self, offset: DVec3) -> f64 {
+        -(self.constant + self.gradient.dot(offset))
+    }
+
+    /// The value of the key along a direction.
+    #[inline(always)]
+    pub(super) fn along(&self, direction: DVec3) -> f64 {
+        self.gradient.dot(direction)
+    }
+
+    /// What bounds the error of the key from anywhere.
+    #[inline]
+    pub(super) fn extent(&self) -> Extent {
+        Extent { steepest: self.gradient.abs().max_element(), constant: self.constant.abs() }
+    }
+}
+
+/// Magnitudes of a cell's function, or the largest of many.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Extent {
+    steepest: f64,
+    constant: f64,
+}
+
+impl Extent {
+    /// The larger of each.
+    pub(super) fn max(self, other: Self) -> Self {
+        Self { steepest: self.steepest.max(other.steepest), constant: self.constant.max(other.constant) }
+    }
+
+    /// How far rounding may have moved a key.
+    #[inline]
+    pub(super) fn error(self, viewpoint: Viewpoint, center: DVec3, reach: f64) -> f64 {
+        match viewpoint {
+            Viewpoint::Eye(eye) => {
+                let offset = (eye - center).abs().element_sum();
+                KEY_ROUNDING * (self.constant + self.steepest * (offset + reach))
+            }
+            Viewpoint::Direction(direction) => KEY_ROUNDING * self.steepest * direction.abs().element_sum(),
         }
     }
 }

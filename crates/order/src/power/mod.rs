@@ -30,7 +30,7 @@ use tetrascope_view::Viewpoint;
 use crate::{Cells, Guarantee, Order, VisibilityOrder};
 use certify::certify;
 use frame::Frame;
-use keys::CellKey;
+use keys::{CellKey, Extent};
 use settle::{Closer, settle};
 
 /// Sorts by the height that a cell's affine function takes at the eye: one key a cell, one radix sort.
@@ -49,6 +49,8 @@ pub struct Power {
     center: DVec3,
     /// Half the sum of the sides of the box around the points: bounds what rounding a gradient moves at the center.
     reach: f64,
+    /// Of all keys: bounds their errors, in most frames well enough.
+    extent: Extent,
     /// One a position.
     heights: Vec<f64>,
     certificate: PowerCertificate,
@@ -83,8 +85,9 @@ impl Power {
             .collect();
         let imprecise = found.iter().filter(|(_, is_precise)| !is_precise).count();
         let certificate = PowerCertificate { imprecise, ..certify(cells, adjacency, &heights) };
-        let keys = found.into_iter().map(|(key, _)| key).collect();
-        Self { keys, center, reach: half.element_sum(), heights, certificate }
+        let keys: Vec<CellKey> = found.into_iter().map(|(key, _)| key).collect();
+        let extent = keys.par_iter().map(CellKey::extent).reduce(Extent::default, Extent::max);
+        Self { keys, center, reach: half.element_sum(), extent, heights, certificate }
     }
 
     /// Proves what can be proven across the gaps of the mesh: [`PowerCertificate::gaps`].
