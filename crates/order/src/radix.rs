@@ -111,11 +111,7 @@ impl Dealt {
     ///
     /// - `empty`: stands where nothing is written yet
     /// - `read`: gets the place of a bucket's first word, its words in order, and where to write what it makes of them
-    pub(crate) fn sort<T, R>(
-        self,
-        empty: T,
-        read: impl Fn(usize, &[u64], &mut [T]) -> R + Sync,
-    ) -> (Vec<T>, Vec<R>)
+    pub(crate) fn sort<T, R>(self, empty: T, read: impl Fn(usize, &[u64], &mut [T]) -> R + Sync) -> (Vec<T>, Vec<R>)
     where
         T: Copy + Send + Sync,
         R: Send,
@@ -127,7 +123,8 @@ impl Dealt {
             }
         }
         // By all threads: pages are cleared at the first write.
-        let mut all: Vec<T> = (0..sizes.iter().sum()).into_par_iter().with_min_len(WORDS_PER_TASK).map(|_| empty).collect();
+        let mut all: Vec<T> =
+            (0..sizes.iter().sum()).into_par_iter().with_min_len(WORDS_PER_TASK).map(|_| empty).collect();
         let mut tasks: Vec<(usize, Range<usize>, &mut [T])> = Vec::new();
         let (mut rest, mut first_place, mut first_bucket, mut len) = (all.as_mut_slice(), 0, 0, 0);
         for (bucket, size) in sizes.iter().enumerate() {

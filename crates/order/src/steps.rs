@@ -42,8 +42,10 @@ impl Steps {
             let fraction = (sample as u64).wrapping_mul(0x9E37_79B9_7F4A_7C15) >> 32;
             (fraction as usize * count) >> 32
         };
-        let mut sample: Vec<f64> =
-            (0..SAMPLES.min(count)).map(|sample| key(drawn.cells[place(sample)])).filter(|key| key.is_finite()).collect();
+        let mut sample: Vec<f64> = (0..SAMPLES.min(count))
+            .map(|sample| key(drawn.cells[place(sample)]))
+            .filter(|key| key.is_finite())
+            .collect();
         sample.sort_unstable_by(f64::total_cmp);
         let beyond = BEYOND * sample.len() / SAMPLES;
         let of = |place: usize| sample.get(place).copied().unwrap_or(0.0);
@@ -132,9 +134,9 @@ impl<'a> Drawn<'a> {
     pub(crate) fn at(&self, places: Range<usize>) -> impl Iterator<Item = (CellId, u64)> {
         let first = places.start as u64;
         let is_ascending = self.is_ascending;
-        (first..).zip(&self.cells[places]).map(move |(place, &cell)| {
-            (cell, if is_ascending { u64::from(cell.0) } else { place })
-        })
+        (first..)
+            .zip(&self.cells[places])
+            .map(move |(place, &cell)| (cell, if is_ascending { u64::from(cell.0) } else { place }))
     }
 
     /// Writes the cells of words.

@@ -52,11 +52,12 @@ impl Frame {
             unsure(&steps, drawn.par_iter().map(|&cell| power.key(cell, viewpoint)))
         };
         let is_joined = |before: u64, after: u64| {
-            after - before < 2 || !unsure.is_empty() && {
-                // The first range that does not end before.
-                let range = unsure.partition_point(|range| range[1] < after);
-                unsure.get(range).is_some_and(|&[first, _]| first <= before)
-            }
+            after - before < 2
+                || !unsure.is_empty() && {
+                    // The first range that does not end before.
+                    let range = unsure.partition_point(|range| range[1] < after);
+                    unsure.get(range).is_some_and(|&[first, _]| first <= before)
+                }
         };
         let (front_to_back, parts) = dealt.sort(CellId(0), |first, words, cells| {
             listed.read(words, cells);
@@ -107,7 +108,8 @@ fn unsure(steps: &Steps, keys: impl ParallelIterator<Item = Key>) -> Vec<[u64; 2
         .filter(|key| !steps.is_sure(key.error))
         .map(|Key { value, error }| {
             // Anything may be beside what is no number.
-            let [low, high] = if error.is_finite() { [value - error, value + error] } else { [f64::NEG_INFINITY, f64::INFINITY] };
+            let [low, high] =
+                if error.is_finite() { [value - error, value + error] } else { [f64::NEG_INFINITY, f64::INFINITY] };
             [steps.step(low).saturating_sub(2), steps.step(high) + 2]
         })
         .collect();

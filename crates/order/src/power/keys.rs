@@ -53,20 +53,27 @@ impl Slope {
         };
         Self { gradient: [component(0), component(1), component(2)], edges, rises, volume }
     }
+
+    /// The function's value at the center.
+    fn constant(&self, positions: [DVec3; 4], heights: [f64; 4], center: DVec3) -> Double {
+        let along = |i: usize| self.gradient[i] * Double::difference(center[i], positions[3][i]);
+        (0..3).fold(Double::from(heights[3]), |sum, i| sum + along(i))
+    }
 }
 
-/// A cell's key in twice the precision; `None` for a cell without volume.
-pub(super) fn precise_key(positions: [DVec3; 4], heights: [f64; 4], viewpoint: Viewpoint) -> Option<Double> {
-    let gradient = Slope::new(positions, heights).gradient;
-    let along = |way: [Double; 3]| (0..3).fold(Double::from(0.0), |sum, i| sum + gradient[i] * way[i]);
-    let key = match viewpoint {
-        Viewpoint::Eye(eye) => {
-            let from_corner = along(std::array::from_fn(|i| Double::difference(eye[i], positions[3][i])));
-            -(from_corner + Double::from(heights[3]))
-        }
-        Viewpoint::Direction(direction) => along(direction.to_array().map(Double::from)),
-    };
-    key.high.is_finite().then_some(key)
+/// What a [`CellKey`] lacks to twice the precision: of the gradient and of the constant. NaN for a cell without volume.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Rest([f64; 4]);
+
+impl Rest {
+    /// About half a microsecond.
+    pub(super) fn new(positions: [DVec3; 4], heights: [f64; 4], center: DVec3) -> Self {
+        let slope = Slope::new(positions, heights);
+        let [x, y, z] = slope.gradient;
+        let constant = slope.constant(positions, heights, center);
+        let is_finite = [x, y, z, constant].iter().all(|part| part.high.is_finite());
+        Self(if is_finite { [x.low, y.low, z.low, constant.low] } else { [f64::NAN; 4] })
+    }
 }
 
 impl CellKey {
@@ -78,9 +85,9 @@ impl CellKey {
     /// The function through the heights of four corners, and whether it is as precise as f64 holds it. A cell without volume has
     /// none; it gets the key of `|p|²` at its centroid, so that it lies among its neighbors on a Delaunay mesh.
     pub(super) fn new(positions: [DVec3; 4], heights: [f64; 4], center: DVec3) -> (Self, bool) {
-        let Slope { gradient: exact, edges, rises, volume } = Slope::new(positions, heights);
-        let constant = (0..3)
-            .fold(Double::from(heights[3]), |sum, i| sum + exact[i] * Double::difference(center[i], positions[3][i]));
+        let slope = Slope::new(positions, heights);
+        let constant = slope.constant(positions, heights, center);
+        let Slope { gradient: exact, edges, rises, volume } = slope;
         let gradient = DVec3::from_array(exact.map(|component| component.high));
         let key = Self { gradient, constant: constant.high };
 
@@ -125,6 +132,21 @@ impl CellKey {
     #[inline(always)]
     pub(super) fn along(&self, direction: DVec3) -> f64 {
         self.gradient.dot(direction)
+    }
+
+    /// The key in twice the precision; `None` for a cell without volume.
+    pub(super) fn precise(&self, Rest([x, y, z, rest]): Rest, viewpoint: Viewpoint, center: DVec3) -> Option<Double> {
+        let lows = [x, y, z];
+        let gradient = |i: usize| Double { high: self.gradient[i], low: lows[i] };
+        let along = |way: [Double; 3]| gradient(0) * way[0] + gradient(1) * way[1] + gradient(2) * way[2];
+        let key = match viewpoint {
+            Viewpoint::Eye(eye) => {
+                let offset = std::array::from_fn(|i| Double::difference(eye[i], center[i]));
+                -(along(offset) + Double { high: self.constant, low: rest })
+            }
+            Viewpoint::Direction(direction) => along(direction.to_array().map(Double::from)),
+        };
+        (rest.is_finite() && key.high.is_finite()).then_some(key)
     }
 
     /// What bounds the error of the key from anywhere.
