@@ -170,8 +170,12 @@ mod cycles_tests;
 #[cfg(test)]
 mod mpvo_tests;
 #[cfg(test)]
+mod radix_tests;
+#[cfg(test)]
 mod repair_tests;
 #[cfg(test)]
 mod sides_tests;
+#[cfg(test)]
+mod steps_tests;
 #[cfg(test)]
 mod tests;

@@ -40,7 +40,7 @@ impl Steps {
         // Multiples of the golden ratio: steps of one length would meet the rows of a grid.
         let place = |sample: usize| {
             let fraction = (sample as u64).wrapping_mul(0x9E37_79B9_7F4A_7C15) >> 32;
-            (fraction as usize * count) >> 32
+            (fraction * count as u64 >> 32) as usize
         };
         let mut sample: Vec<f64> = (0..SAMPLES.min(count))
             .map(|sample| key(drawn.cells[place(sample)]))
@@ -56,7 +56,8 @@ impl Steps {
         // Two steps less, for rounding.
         let per_key = (all - 2.0 * tail - 2.0) / (high - low);
         let widths = [(high - low) / 8.0, of(sample.len().max(1) - 1) - of(0)];
-        let tail_per_key = widths.iter().map(|width| 1.0 / width).find(|per_key| per_key.is_finite()).unwrap_or(1.0);
+        let tail_per_key =
+            widths.iter().map(|width| 1.0 / width).find(|&per_key| per_key > 0.0 && per_key.is_finite()).unwrap_or(1.0);
         // One key alone: no steps between.
         Self {
             low,

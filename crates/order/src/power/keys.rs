@@ -109,7 +109,7 @@ impl CellKey {
 
     /// Smaller is nearer. From an eye the negated function there; along a direction, where the eye has gone to infinity
     /// against it, the slope along it.
-    #[inline]
+    #[inline(always)]
     pub(super) fn at(&self, viewpoint: Viewpoint, center: DVec3, reach: f64) -> Key {
         match viewpoint {
             Viewpoint::Eye(eye) => {

@@ -139,6 +139,7 @@ impl Power {
         Rest::new(positions, corners.map(|v| self.heights[v.index()]), self.center)
     }
 
+    #[inline(always)]
     fn key(&self, cell: CellId, viewpoint: Viewpoint) -> keys::Key {
         self.keys[cell.index()].at(viewpoint, self.center, self.reach)
     }
