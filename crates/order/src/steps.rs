@@ -40,7 +40,7 @@ impl Steps {
         // Multiples of the golden ratio: steps of one length would meet the rows of a grid.
         let place = |sample: usize| {
             let fraction = (sample as u64).wrapping_mul(0x9E37_79B9_7F4A_7C15) >> 32;
-            (fraction * count as u64 >> 32) as usize
+            ((fraction * count as u64) >> 32) as usize
         };
         let mut sample: Vec<f64> = (0..SAMPLES.min(count))
             .map(|sample| key(drawn.cells[place(sample)]))

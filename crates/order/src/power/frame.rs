@@ -31,7 +31,7 @@ impl Frame {
         match viewpoint {
             Viewpoint::Eye(eye) => {
                 let offset = eye - power.center;
-                Self::by(power, viewpoint, drawn, |cell| power.keys[cell.index()].from_eye(offset))
+                Self::by(power, viewpoint, drawn, |cell| power.keys[cell.index()].seen_from(offset))
             }
             Viewpoint::Direction(along) => {
                 Self::by(power, viewpoint, drawn, |cell| power.keys[cell.index()].along(along))

@@ -114,7 +114,7 @@ impl CellKey {
         match viewpoint {
             Viewpoint::Eye(eye) => {
                 let offset = eye - center;
-                Key { value: self.from_eye(offset), error: self.extent().error(viewpoint, center, reach) }
+                Key { value: self.seen_from(offset), error: self.extent().error(viewpoint, center, reach) }
             }
             Viewpoint::Direction(direction) => {
                 Key { value: self.along(direction), error: self.extent().error(viewpoint, center, reach) }
@@ -124,7 +124,7 @@ impl CellKey {
 
     /// The value of the key for an eye, as offset from the center.
     #[inline(always)]
-    pub(super) fn from_eye(&self, offset: DVec3) -> f64 {
+    pub(super) fn seen_from(&self, offset: DVec3) -> f64 {
         -(self.constant + self.gradient.dot(offset))
     }
 
