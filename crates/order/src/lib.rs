@@ -47,6 +47,7 @@ mod radix;
 mod remedy;
 mod repair;
 mod sides;
+mod steps;
 mod sweep;
 mod unordered;
 mod visibility;
@@ -173,8 +174,12 @@ mod cycles_tests;
 #[cfg(test)]
 mod mpvo_tests;
 #[cfg(test)]
+mod radix_tests;
+#[cfg(test)]
 mod repair_tests;
 #[cfg(test)]
 mod sides_tests;
+#[cfg(test)]
+mod steps_tests;
 #[cfg(test)]
 mod tests;

@@ -13,7 +13,7 @@ pub(super) const ROUNDING: f64 = 1e-30;
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Double {
     pub(super) high: f64,
-    low: f64,
+    pub(super) low: f64,
 }
 
 impl Double {

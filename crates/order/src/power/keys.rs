@@ -1,7 +1,6 @@
-//! Keys of cells, how sure they are, and their 32 bits for the radix sort.
+//! Keys of cells, and how sure they are.
 
 use glam::DVec3;
-use rayon::prelude::*;
 use tetrascope_view::Viewpoint;
 
 use super::certify::determinant;
@@ -54,20 +53,27 @@ impl Slope {
         };
         Self { gradient: [component(0), component(1), component(2)], edges, rises, volume }
     }
+
+    /// The function's value at the center.
+    fn constant(&self, positions: [DVec3; 4], heights: [f64; 4], center: DVec3) -> Double {
+        let along = |i: usize| self.gradient[i] * Double::difference(center[i], positions[3][i]);
+        (0..3).fold(Double::from(heights[3]), |sum, i| sum + along(i))
+    }
 }
 
-/// A cell's key in twice the precision; `None` for a cell without volume.
-pub(super) fn precise_key(positions: [DVec3; 4], heights: [f64; 4], viewpoint: Viewpoint) -> Option<Double> {
-    let gradient = Slope::new(positions, heights).gradient;
-    let along = |way: [Double; 3]| (0..3).fold(Double::from(0.0), |sum, i| sum + gradient[i] * way[i]);
-    let key = match viewpoint {
-        Viewpoint::Eye(eye) => {
-            let from_corner = along(std::array::from_fn(|i| Double::difference(eye[i], positions[3][i])));
-            -(from_corner + Double::from(heights[3]))
-        }
-        Viewpoint::Direction(direction) => along(direction.to_array().map(Double::from)),
-    };
-    key.high.is_finite().then_some(key)
+/// What a [`CellKey`] lacks to twice the precision: of the gradient and of the constant. NaN for a cell without volume.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Rest([f64; 4]);
+
+impl Rest {
+    /// About half a microsecond.
+    pub(super) fn new(positions: [DVec3; 4], heights: [f64; 4], center: DVec3) -> Self {
+        let slope = Slope::new(positions, heights);
+        let [x, y, z] = slope.gradient;
+        let constant = slope.constant(positions, heights, center);
+        let is_finite = [x, y, z, constant].iter().all(|part| part.high.is_finite());
+        Self(if is_finite { [x.low, y.low, z.low, constant.low] } else { [f64::NAN; 4] })
+    }
 }
 
 impl CellKey {
@@ -79,9 +85,9 @@ impl CellKey {
     /// The function through the heights of four corners, and whether it is as precise as f64 holds it. A cell without volume has
     /// none; it gets the key of `|p|²` at its centroid, so that it lies among its neighbors on a Delaunay mesh.
     pub(super) fn new(positions: [DVec3; 4], heights: [f64; 4], center: DVec3) -> (Self, bool) {
-        let Slope { gradient: exact, edges, rises, volume } = Slope::new(positions, heights);
-        let constant = (0..3)
-            .fold(Double::from(heights[3]), |sum, i| sum + exact[i] * Double::difference(center[i], positions[3][i]));
+        let slope = Slope::new(positions, heights);
+        let constant = slope.constant(positions, heights, center);
+        let Slope { gradient: exact, edges, rises, volume } = slope;
         let gradient = DVec3::from_array(exact.map(|component| component.high));
         let key = Self { gradient, constant: constant.high };
 
@@ -103,72 +109,75 @@ impl CellKey {
 
     /// Smaller is nearer. From an eye the negated function there; along a direction, where the eye has gone to infinity
     /// against it, the slope along it.
-    #[inline]
+    #[inline(always)]
     pub(super) fn at(&self, viewpoint: Viewpoint, center: DVec3, reach: f64) -> Key {
-        let steepest = self.gradient.abs().max_element();
         match viewpoint {
             Viewpoint::Eye(eye) => {
                 let offset = eye - center;
-                let value = -(self.constant + self.gradient.dot(offset));
-                let magnitude = self.constant.abs() + steepest * (offset.abs().element_sum() + reach);
-                Key { value, error: KEY_ROUNDING * magnitude }
+                Key { value: self.seen_from(offset), error: self.extent().error(viewpoint, center, reach) }
             }
-            Viewpoint::Direction(direction) => Key {
-                value: self.gradient.dot(direction),
-                error: KEY_ROUNDING * steepest * direction.abs().element_sum(),
-            },
+            Viewpoint::Direction(direction) => {
+                Key { value: self.along(direction), error: self.extent().error(viewpoint, center, reach) }
+            }
         }
+    }
+
+    /// The value of the key for an eye, as offset from the center.
+    #[inline(always)]
+    pub(super) fn seen_from(&self, offset: DVec3) -> f64 {
+        -(self.constant + self.gradient.dot(offset))
+    }
+
+    /// The value of the key along a direction.
+    #[inline(always)]
+    pub(super) fn along(&self, direction: DVec3) -> f64 {
+        self.gradient.dot(direction)
+    }
+
+    /// The key in twice the precision; `None` for a cell without volume.
+    pub(super) fn precise(&self, Rest([x, y, z, rest]): Rest, viewpoint: Viewpoint, center: DVec3) -> Option<Double> {
+        let lows = [x, y, z];
+        let gradient = |i: usize| Double { high: self.gradient[i], low: lows[i] };
+        let along = |way: [Double; 3]| gradient(0) * way[0] + gradient(1) * way[1] + gradient(2) * way[2];
+        let key = match viewpoint {
+            Viewpoint::Eye(eye) => {
+                let offset = std::array::from_fn(|i| Double::difference(eye[i], center[i]));
+                -(along(offset) + Double { high: self.constant, low: rest })
+            }
+            Viewpoint::Direction(direction) => along(direction.to_array().map(Double::from)),
+        };
+        (rest.is_finite() && key.high.is_finite()).then_some(key)
+    }
+
+    /// What bounds the error of the key from anywhere.
+    #[inline]
+    pub(super) fn extent(&self) -> Extent {
+        Extent { steepest: self.gradient.abs().max_element(), constant: self.constant.abs() }
     }
 }
 
-/// Equal steps from the lowest key to the highest, 2³² of them.
-///
-/// Equal steps rather than the bits of an f32: keys are spread over their range, and near zero they need not be finer.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Steps {
-    low: f64,
-    per_key: f64,
+/// Magnitudes of a cell's function, or the largest of many.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Extent {
+    steepest: f64,
+    constant: f64,
 }
 
-impl Steps {
-    pub(super) fn between(low: f64, high: f64) -> Self {
-        let per_key = f64::from(u32::MAX) / (high - low);
-        // One key alone, or none, or not finite: all cells share step 0.
-        let per_key = if per_key.is_finite() { per_key } else { 0.0 };
-        Self { low, per_key }
+impl Extent {
+    /// The larger of each.
+    pub(super) fn max(self, other: Self) -> Self {
+        Self { steepest: self.steepest.max(other.steepest), constant: self.constant.max(other.constant) }
     }
 
+    /// How far rounding may have moved a key.
     #[inline]
-    pub(super) fn step(&self, key: f64) -> u32 {
-        ((key - self.low) * self.per_key) as u32
-    }
-
-    /// Whether an error stays below half a step.
-    #[inline]
-    pub(super) fn is_sure(&self, error: f64) -> bool {
-        const SURE: f64 = 0.49;
-        error.is_finite() && error * self.per_key <= SURE
-    }
-
-    /// Ranges of steps, first and last, in which some key's error reaches beyond the neighboring step; disjoint, ascending.
-    ///
-    /// Other keys two steps apart are in the right order: each errs by less than half a step.
-    pub(super) fn unsure(&self, keys: impl ParallelIterator<Item = Key>) -> Vec<[u32; 2]> {
-        let mut ranges: Vec<[u32; 2]> = keys
-            .filter(|key| !self.is_sure(key.error))
-            .map(|key| {
-                let (middle, reach) = (f64::from(self.step(key.value)), key.error * self.per_key + 2.0);
-                [(middle - reach).floor() as u32, (middle + reach).ceil() as u32]
-            })
-            .collect();
-        ranges.sort_unstable();
-        let mut merged: Vec<[u32; 2]> = Vec::new();
-        for range in ranges {
-            match merged.last_mut() {
-                Some(last) if range[0] <= last[1] => last[1] = last[1].max(range[1]),
-                _ => merged.push(range),
+    pub(super) fn error(self, viewpoint: Viewpoint, center: DVec3, reach: f64) -> f64 {
+        match viewpoint {
+            Viewpoint::Eye(eye) => {
+                let offset = (eye - center).abs().element_sum();
+                KEY_ROUNDING * (self.constant + self.steepest * (offset + reach))
             }
+            Viewpoint::Direction(direction) => KEY_ROUNDING * self.steepest * direction.abs().element_sum(),
         }
-        merged
     }
 }

@@ -18,10 +18,11 @@ mod lifted;
 mod quadratic;
 mod relax;
 mod settle;
-mod sort;
 
 pub use certify::PowerCertificate;
 pub use heights::{Budget, HeightSource, Heights};
+
+use std::sync::OnceLock;
 
 use glam::DVec3;
 use rayon::prelude::*;
@@ -31,15 +32,20 @@ use tetrascope_view::Viewpoint;
 use crate::{Cells, Guarantee, Order, VisibilityOrder};
 use certify::certify;
 use frame::Frame;
-use keys::CellKey;
+use keys::{CellKey, Extent, Rest};
 use settle::{Closer, settle};
+
+/// One cell in so many is doubtful in a frame for which more is learned of all cells, once: a view along the rows of
+/// a grid, and hardly any other.
+const MANY: usize = 16;
 
 /// Sorts by the height that a cell's affine function takes at the eye: one key a cell, one radix sort.
 ///
-/// Cells that share a face come in the right order from every viewpoint if [`PowerCertificate::is_exact`]. Keys are sorted by 32
+/// Cells that share a face come in the right order from every viewpoint if [`PowerCertificate::is_exact`]. Keys are sorted by 36
 /// bits; cells whose keys are nearer than that resolves are compared in f64, and those nearer than f64 is sure of by the
 /// exact side of their common faces. Cells that meet edge-on keep the order of `drawn` where nothing else decides. Memory: 32
-/// bytes a cell and 8 a point. It orders the mesh it was made for, and no other.
+/// bytes a cell and 8 a point, and up to 48 more a cell from the first frame on in which many cells have nearly equal keys, as along
+/// the rows of a grid; that frame takes about a microsecond a cell. It orders the mesh it was made for, and no other.
 ///
 /// The order's [`Guarantee`] is `Exact` if [`PowerCertificate::is_exact_across_gaps`], `Faces` if only [`PowerCertificate::is_exact`], and
 /// else `Approximate`. Where it is `Exact`, cells that share no face are told apart down to 1e-30 of what cancels in their keys;
@@ -50,6 +56,12 @@ pub struct Power {
     center: DVec3,
     /// Half the sum of the sides of the box around the points: bounds what rounding a gradient moves at the center.
     reach: f64,
+    /// Of all keys: bounds their errors, in most frames well enough.
+    extent: Extent,
+    /// Of every cell, from the first frame on that has many cells with nearly equal keys.
+    rests: OnceLock<Vec<Rest>>,
+    /// Which cells share faces, likewise.
+    adjacency: OnceLock<FaceAdjacency>,
     /// One a position.
     heights: Vec<f64>,
     certificate: PowerCertificate,
@@ -84,8 +96,18 @@ impl Power {
             .collect();
         let imprecise = found.iter().filter(|(_, is_precise)| !is_precise).count();
         let certificate = PowerCertificate { imprecise, ..certify(cells, adjacency, &heights) };
-        let keys = found.into_iter().map(|(key, _)| key).collect();
-        Self { keys, center, reach: half.element_sum(), heights, certificate }
+        let keys: Vec<CellKey> = found.into_iter().map(|(key, _)| key).collect();
+        let extent = keys.par_iter().map(CellKey::extent).reduce(Extent::default, Extent::max);
+        Self {
+            keys,
+            center,
+            reach: half.element_sum(),
+            extent,
+            rests: OnceLock::new(),
+            adjacency: OnceLock::new(),
+            heights,
+            certificate,
+        }
     }
 
     /// Proves what can be proven across the gaps of the mesh: [`PowerCertificate::gaps`].
@@ -111,6 +133,13 @@ impl Power {
         self.certificate
     }
 
+    fn rest(&self, cells: Cells<'_>, cell: CellId) -> Rest {
+        let corners = cells.tetrahedra[cell.index()];
+        let positions = corners.map(|v| cells.positions[v.index()]);
+        Rest::new(positions, corners.map(|v| self.heights[v.index()]), self.center)
+    }
+
+    #[inline(always)]
     fn key(&self, cell: CellId, viewpoint: Viewpoint) -> keys::Key {
         self.keys[cell.index()].at(viewpoint, self.center, self.reach)
     }
@@ -118,7 +147,9 @@ impl Power {
 
 impl VisibilityOrder for Power {
     fn kept_bytes(&self) -> usize {
-        size_of_val(self.keys.as_slice()) + size_of_val(self.heights.as_slice())
+        let rests = self.rests.get().map_or(0, |rests| size_of_val(rests.as_slice()));
+        let neighbors = self.adjacency.get().map_or(0, |adjacency| size_of_val(adjacency.table()));
+        size_of_val(self.keys.as_slice()) + size_of_val(self.heights.as_slice()) + rests + neighbors
     }
 
     fn order(&self, cells: Cells<'_>, viewpoint: Viewpoint, drawn: &[CellId]) -> Order {
@@ -129,17 +160,26 @@ impl VisibilityOrder for Power {
         } else {
             Guarantee::Approximate
         };
+        let frame = Frame::new(self, viewpoint, drawn);
+        // Faces tell neighbors apart; only what is proven across gaps needs more.
+        let is_precise = guarantee == Guarantee::Exact;
+        let doubtful: usize = frame.runs.iter().map(ExactSizeIterator::len).sum();
+        let are_many = doubtful > drawn.len() / MANY;
+        let adjacency = are_many.then(|| self.adjacency.get_or_init(|| FaceAdjacency::new(cells.tetrahedra)));
+        let rests = (is_precise && are_many).then(|| {
+            self.rests.get_or_init(|| {
+                (0..cells.tetrahedra.len()).into_par_iter().map(|cell| self.rest(cells, CellId(cell as u32))).collect()
+            })
+        });
         let precise = |cell: CellId| {
-            // Faces tell neighbors apart; only what is proven across gaps needs more.
-            if guarantee != Guarantee::Exact {
+            if !is_precise {
                 return None;
             }
-            let corners = cells.tetrahedra[cell.index()];
-            let positions = corners.map(|v| cells.positions[v.index()]);
-            keys::precise_key(positions, corners.map(|v| self.heights[v.index()]), viewpoint)
+            let rest = rests.map_or_else(|| self.rest(cells, cell), |rests| rests[cell.index()]);
+            self.keys[cell.index()].precise(rest, viewpoint, self.center)
         };
-        let closer = Closer { cells, viewpoint, key: |cell| self.key(cell, viewpoint), precise };
-        Order::whole(settle(&Frame::new(self, viewpoint, drawn), drawn, &closer), guarantee)
+        let closer = Closer { cells, viewpoint, adjacency, key: |cell| self.key(cell, viewpoint), precise };
+        Order::whole(settle(frame, &closer), guarantee)
     }
 }
 

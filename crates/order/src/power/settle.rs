@@ -2,14 +2,14 @@
 
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
-use std::ops::Range;
 
+use glam::DVec3;
 use rayon::prelude::*;
 use robust::orient3d;
 use tetrascope_mesh::{CellId, FaceAdjacency, VertexId};
 use tetrascope_view::Viewpoint;
 
-use super::certify::{coord, determinant};
+use super::certify::coord;
 use super::double::{Double, ROUNDING};
 use super::frame::Frame;
 use super::keys::Key;
@@ -18,64 +18,36 @@ use crate::Cells;
 /// Up to this many cells common faces are found by comparing all pairs; beyond, through an adjacency of their own.
 const FEW: usize = 12;
 
-/// Keys of twice the precision, about a microsecond each, that are worth a task.
+/// Keys of twice the precision that are worth a task.
 const PRECISE_PER_TASK: usize = 32;
 
-/// Steps that one task looks through for runs.
-const STEPS_PER_TASK: usize = 1 << 14;
+/// Cells whose faces are worth a task.
+const FACES_PER_TASK: usize = 256;
+
+/// Bound of the rounding of a three by three determinant of two differences and a given row, relative to its permanent: two
+/// roundings for the differences, three products, three sums and one for the rest are nine of 2⁻⁵³; this is sixteen.
+const ROUNDING_F64: f64 = 8.0 * f64::EPSILON;
 
 /// What telling cells apart takes.
 #[derive(Clone, Copy)]
 pub(super) struct Closer<'a, K, P> {
     pub(super) cells: Cells<'a>,
     pub(super) viewpoint: Viewpoint,
+    /// Of the whole mesh, where that is there.
+    pub(super) adjacency: Option<&'a FaceAdjacency>,
     /// A cell's key in f64.
     pub(super) key: K,
     /// The same in twice the precision, where there is one and it is wanted.
     pub(super) precise: P,
 }
 
-/// Cells from front to back, from cells sorted by their steps: puts right those whose steps do not tell, equal or neighboring
-/// ones and those in a range of `unsure`.
-pub(super) fn settle<K, P>(frame: &Frame, drawn: &[CellId], closer: &Closer<'_, K, P>) -> Vec<CellId>
+/// Cells from front to back, from cells sorted by their steps: puts right those whose steps do not tell.
+pub(super) fn settle<K, P>(frame: Frame, closer: &Closer<'_, K, P>) -> Vec<CellId>
 where
     K: Fn(CellId) -> Key + Sync,
     P: Fn(CellId) -> Option<Double> + Sync,
 {
-    let cell = |item: &u64| drawn[*item as u32 as usize];
-    let mut front_to_back: Vec<CellId> = frame.sorted.par_iter().map(cell).collect();
-    let step = |place: usize| (frame.sorted[place] >> 32) as u32;
-    let is_joined = |place: usize| {
-        let (before, after) = (step(place - 1), step(place));
-        after - before < 2 || {
-            // The first range that does not end before.
-            let range = frame.unsure.partition_point(|range| range[1] < after);
-            frame.unsure.get(range).is_some_and(|&[first, _]| first <= before)
-        }
-    };
-    // Runs by where they begin.
-    let runs: Vec<Range<usize>> = (0..frame.sorted.len().div_ceil(STEPS_PER_TASK))
-        .into_par_iter()
-        .flat_map_iter(|task| {
-            let end = ((task + 1) * STEPS_PER_TASK).min(frame.sorted.len());
-            let mut runs = Vec::new();
-            let mut place = task * STEPS_PER_TASK;
-            while place < end && place > 0 && is_joined(place) {
-                place += 1;
-            }
-            while place < end {
-                let start = place;
-                place += 1;
-                while place < frame.sorted.len() && is_joined(place) {
-                    place += 1;
-                }
-                if place - start > 1 {
-                    runs.push(start..place);
-                }
-            }
-            runs
-        })
-        .collect();
+    let Frame { mut front_to_back, runs } = frame;
     let settled: Vec<Vec<CellId>> =
         runs.par_iter().map(|run| settle_run(&front_to_back[run.clone()], closer)).collect();
     for (run, members) in runs.into_iter().zip(settled) {
@@ -106,6 +78,7 @@ where
         if end == keyed.len() || highest < lowest[end] {
             if end - start > 1 {
                 let group = &mut members[start..end];
+                let values = [keyed[start].0.value, keyed[end - 1].0.value];
                 let precise: Option<Vec<(Double, CellId)>> = group
                     .par_iter()
                     .with_min_len(PRECISE_PER_TASK)
@@ -115,7 +88,7 @@ where
                     precise.sort_by(|(a, _), (b, _)| a.total_cmp(b));
                     group.iter_mut().zip(precise).for_each(|(place, (_, cell))| *place = cell);
                 }
-                sort_by_faces(group, closer.cells, closer.viewpoint);
+                sort_by_faces(group, values, closer);
             }
             start = end;
         }
@@ -124,31 +97,22 @@ where
 }
 
 /// Sorts so that of two cells that share a face the nearer comes first, and otherwise leaves them as they are as far as it can.
-fn sort_by_faces(members: &mut [CellId], cells: Cells<'_>, viewpoint: Viewpoint) {
-    let corners: Vec<[VertexId; 4]> = members.iter().map(|cell| cells.tetrahedra[cell.index()]).collect();
+///
+/// - `values`: the lowest key of a member and the highest, in f64
+fn sort_by_faces<K, P>(members: &mut [CellId], values: [f64; 2], closer: &Closer<'_, K, P>)
+where
+    K: Fn(CellId) -> Key + Sync,
+{
+    let arrows = arrows(members, values, closer);
+    // Along the rows of a grid most faces are seen edge-on, and none is in the wrong order.
+    if arrows.iter().all(|[front, back]| front < back) {
+        return;
+    }
     let mut behind: Vec<Vec<u32>> = vec![Vec::new(); members.len()];
     let mut in_front = vec![0_u32; members.len()];
-    let mut meet = |a: usize, b: usize| {
-        let (front, back) = match nearer(cells, viewpoint, corners[a], corners[b]) {
-            Some(true) => (a, b),
-            Some(false) => (b, a),
-            None => return,
-        };
-        behind[front].push(back as u32);
-        in_front[back] += 1;
-    };
-    if members.len() <= FEW {
-        for a in 0..members.len() {
-            (a + 1..members.len()).for_each(|b| meet(a, b));
-        }
-    } else {
-        let adjacency = FaceAdjacency::new(&corners);
-        for (a, neighbors) in adjacency.table().iter().enumerate() {
-            neighbors
-                .iter()
-                .filter(|&&b| b != FaceAdjacency::NONE && a < b as usize)
-                .for_each(|&b| meet(a, b as usize));
-        }
+    for [front, back] in arrows {
+        behind[front as usize].push(back);
+        in_front[back as usize] += 1;
     }
     let mut ready: BinaryHeap<Reverse<u32>> =
         (0..members.len() as u32).filter(|&place| in_front[place as usize] == 0).map(Reverse).collect();
@@ -168,6 +132,63 @@ fn sort_by_faces(members: &mut [CellId], cells: Cells<'_>, viewpoint: Viewpoint)
     members.copy_from_slice(&order);
 }
 
+/// Places of cells that share a face, the nearer first.
+fn arrows<K, P>(members: &[CellId], [lowest, highest]: [f64; 2], closer: &Closer<'_, K, P>) -> Vec<[u32; 2]>
+where
+    K: Fn(CellId) -> Key + Sync,
+{
+    let &Closer { cells, viewpoint, ref key, .. } = closer;
+    let corners = |cell: CellId| cells.tetrahedra[cell.index()];
+    let mut arrows = Vec::new();
+    let mut meet = |a: usize, b: usize| match nearer(cells, viewpoint, corners(members[a]), corners(members[b])) {
+        Some(true) => arrows.push([a as u32, b as u32]),
+        Some(false) => arrows.push([b as u32, a as u32]),
+        None => {}
+    };
+    if members.len() <= FEW {
+        for a in 0..members.len() {
+            (a + 1..members.len()).for_each(|b| meet(a, b));
+        }
+        return arrows;
+    }
+    let Some(adjacency) = closer.adjacency else {
+        let corners: Vec<[VertexId; 4]> = members.iter().map(|&cell| corners(cell)).collect();
+        for (a, neighbors) in FaceAdjacency::new(&corners).table().iter().enumerate() {
+            neighbors
+                .iter()
+                .filter(|&&b| b != FaceAdjacency::NONE && a < b as usize)
+                .for_each(|&b| meet(a, b as usize));
+        }
+        return arrows;
+    };
+    // Neighbors whose keys lie among the members' and that are not seen edge-on: few. Whether they are drawn shows last.
+    let of_cell = |&cell: &CellId| {
+        let neighbors = adjacency.table()[cell.index()];
+        neighbors.into_iter().filter(move |&other| other != FaceAdjacency::NONE && cell.0 < other).filter_map(
+            move |other| {
+                let other = CellId(other);
+                let value = key(other).value;
+                if !(lowest <= value && value <= highest) {
+                    return None;
+                }
+                let is_first = nearer(cells, viewpoint, corners(cell), corners(other))?;
+                Some(if is_first { [cell, other] } else { [other, cell] })
+            },
+        )
+    };
+    let found: Vec<[CellId; 2]> = members.par_iter().with_min_len(FACES_PER_TASK).flat_map_iter(of_cell).collect();
+    if found.is_empty() {
+        return arrows;
+    }
+    let mut places: Vec<(CellId, u32)> = members.iter().copied().zip(0..).collect();
+    places.sort_unstable();
+    let place = |cell: CellId| {
+        let found = places.binary_search_by_key(&cell, |&(cell, _)| cell).ok()?;
+        Some(places[found].1)
+    };
+    found.into_iter().filter_map(|[front, back]| Some([place(front)?, place(back)?])).collect()
+}
+
 /// Whether the first of two cells is the nearer; `None` if they share no face or are seen edge-on, or one has no volume.
 fn nearer(cells: Cells<'_>, viewpoint: Viewpoint, first: [VertexId; 4], second: [VertexId; 4]) -> Option<bool> {
     let mut apexes = first.iter().filter(|v| !second.contains(v));
@@ -175,21 +196,38 @@ fn nearer(cells: Cells<'_>, viewpoint: Viewpoint, first: [VertexId; 4], second: 
     let &second_apex = second.iter().find(|v| !first.contains(v))?;
     let mut face = first.iter().filter(|v| **v != first_apex).map(|v| cells.positions[v.index()]);
     let face = [face.next()?, face.next()?, face.next()?];
-    let side = |p: glam::DVec3| orient3d(coord(face[0]), coord(face[1]), coord(face[2]), coord(p));
-    let [first_side, second_side] = [first_apex, second_apex].map(|v| side(cells.positions[v.index()]));
+    let side = |p: DVec3| orient3d(coord(face[0]), coord(face[1]), coord(face[2]), coord(p));
     let eye_side = match viewpoint {
         Viewpoint::Eye(eye) => side(eye),
         Viewpoint::Direction(direction) => side_of_infinity(face, direction),
     };
+    if eye_side == 0.0 {
+        return None;
+    }
+    let [first_side, second_side] = [first_apex, second_apex].map(|v| side(cells.positions[v.index()]));
     let are_apart = (first_side > 0.0 && second_side < 0.0) || (first_side < 0.0 && second_side > 0.0);
-    (are_apart && eye_side != 0.0).then_some((eye_side > 0.0) == (first_side > 0.0))
+    are_apart.then_some((eye_side > 0.0) == (first_side > 0.0))
 }
 
 /// The sign of [`orient3d`] of a face and a point infinitely far against the direction; 0 below 1e-30 of what cancels.
-fn side_of_infinity(face: [glam::DVec3; 3], direction: glam::DVec3) -> f64 {
+fn side_of_infinity(face: [DVec3; 3], direction: DVec3) -> f64 {
+    // Nearly always f64 tells, or has nothing to cancel.
+    let [first, second] = [face[1] - face[0], face[2] - face[0]];
+    let rough = direction.dot(first.cross(second));
+    let [along, across, over] = [direction.abs(), first.abs(), second.abs()];
+    let swapped = DVec3::new(across.y * over.z, across.z * over.x, across.x * over.y)
+        + DVec3::new(across.z * over.y, across.x * over.z, across.y * over.x);
+    if rough.abs() > ROUNDING_F64 * along.dot(swapped) {
+        return rough;
+    }
     let edge = |k: usize| -> [Double; 3] { std::array::from_fn(|i| Double::difference(face[k][i], face[0][i])) };
     let edges = [edge(1), edge(2)];
-    let volume = determinant([direction.to_array().map(Double::from), edges[0], edges[1]]).high;
+    let component = |i: usize| {
+        let (j, k) = ((i + 1) % 3, (i + 2) % 3);
+        Double::from(direction[i]) * (edges[0][j] * edges[1][k] - edges[0][k] * edges[1][j])
+    };
+    // Along an axis one component is all.
+    let volume = (0..3).filter(|&i| direction[i] != 0.0).fold(Double::from(0.0), |sum, i| sum + component(i)).high;
     let permanent = direction.abs().element_sum()
         * edges.iter().map(|edge| edge.iter().map(|component| component.high.abs()).sum::<f64>()).product::<f64>();
     if volume.abs() > ROUNDING * permanent { volume } else { 0.0 }
