@@ -62,12 +62,12 @@ impl VisibilityOrder for BspXmpvo {
             }
             (Gaps::new(cells.tetrahedra.len(), &arrows), report.is_complete)
         };
-        let (bytes, (gaps, is_complete)) = rayon::join(|| self.mpvo.waiting(cells, viewpoint), across);
+        let (faces, (gaps, is_complete)) = rayon::join(|| self.mpvo.waiting(cells, viewpoint), across);
         let guarantee = match is_complete {
             true if self.overlaps => Guarantee::Overlapping,
             true => Guarantee::Exact,
             false => Guarantee::Faces,
         };
-        self.mpvo.swept(cells, viewpoint, drawn, bytes, &gaps, guarantee)
+        self.mpvo.swept(cells, viewpoint, drawn, faces, &gaps, guarantee)
     }
 }

@@ -29,8 +29,8 @@ use crate::{Cells, Guarantee, Order, VisibilityOrder};
 /// Time linear in the number of cells of the mesh but for the sort of the boundary, where it is not convex; all cells take part, also
 /// those that are not drawn, since two that are may be ordered by what lies between them. Keeps 49 bytes a tetrahedron: its neighbors
 /// (16), the planes of its faces in 16 bits (32), their sides (1). Where the mesh is convex, 9 more hold the last order: for an eye that moved
-/// little only what lies at faces that turned is put in order anew. Then the order of two cells that no ray meets both of may depend on the
-/// views before; that of all others cannot.
+/// little, and sees no face edge-on, only what lies at faces that turned is put in order anew. Then the order of two cells that no ray
+/// meets both of may depend on the views before; that of all others cannot.
 ///
 /// Source: [Williams 1992b]. On a convex mesh any topological order is right and the one of [Kahn 1962] is the fastest; elsewhere
 /// a depth-first search from the boundary, sorted by centroid, is his heuristic for meshes that are not convex, from the front.
@@ -79,31 +79,32 @@ impl Mpvo {
         &self.folded
     }
 
-    /// What every cell waits for, as [`sweep`] takes it.
-    pub(crate) fn waiting(&self, cells: Cells<'_>, viewpoint: Viewpoint) -> Vec<u8> {
+    /// What every cell waits for, as [`sweep`] takes it, and whether no face is seen edge-on.
+    pub(crate) fn waiting(&self, cells: Cells<'_>, viewpoint: Viewpoint) -> (Vec<u8>, bool) {
         assert_eq!(cells.tetrahedra.len(), self.sides.len(), "an order is made for one mesh");
         let mut bytes = vec![0; self.sides.len() + 1];
-        self.sides.relations(cells, viewpoint, &mut bytes[..self.sides.len()], waiting);
-        bytes
+        let is_general = self.sides.relations(cells, viewpoint, &mut bytes[..self.sides.len()], waiting);
+        (bytes, is_general)
     }
 
     /// The order that follows from faces and gaps alone.
     ///
-    /// - `bytes`: of [`Self::waiting`]
+    /// - `bytes` and `is_general`: of [`Self::waiting`]
     /// - `gaps`: for every cell those that lie behind it without a face in common
     pub(crate) fn swept(
         &self,
         cells: Cells<'_>,
         viewpoint: Viewpoint,
         drawn: &[CellId],
-        mut bytes: Vec<u8>,
+        (mut bytes, is_general): (Vec<u8>, bool),
         gaps: &Gaps,
         guarantee: Guarantee,
     ) -> Order {
         let count = self.sides.len();
         let table = self.adjacency.table();
-        // Where anything is guessed, or stands as it does for a ring, the order may not depend on views before.
-        let is_kept = gaps.is_empty() && guarantee == Guarantee::Exact;
+        // Where anything is guessed, or stands as it does for a ring, the order may not depend on views before. Nor where a face is seen
+        // edge-on: a ray in it is in both cells as they round, and their order shows in the last bit of a picture.
+        let is_kept = is_general && gaps.is_empty() && guarantee == Guarantee::Exact;
         let mut last = self.last.lock().unwrap_or_else(PoisonError::into_inner);
         if is_kept && last.repair(&bytes, table) {
             return Order::whole(only_drawn(last.placed().to_vec(), count, drawn), guarantee);
@@ -235,8 +236,8 @@ impl VisibilityOrder for Mpvo {
         match &self.boundary {
             Some(boundary) => self.guessed(cells, viewpoint, drawn, boundary),
             None => {
-                let bytes = self.waiting(cells, viewpoint);
-                self.swept(cells, viewpoint, drawn, bytes, &Gaps::default(), Guarantee::Exact)
+                let faces = self.waiting(cells, viewpoint);
+                self.swept(cells, viewpoint, drawn, faces, &Gaps::default(), Guarantee::Exact)
             }
         }
     }

@@ -144,11 +144,17 @@ struct Outer {
     cell_side: i8,
 }
 
+/// A box around some of the boundary faces.
+struct Node {
+    bounds: Bounds,
+    faces: std::ops::Range<usize>,
+    children: Option<[usize; 2]>,
+}
+
 /// The boundary faces in boxes around boxes, halved along the longest side; they stand in the order of the leaves.
 struct Boundary {
     faces: Vec<Outer>,
-    /// A node's box, its first and last face, and its two children, if it has any.
-    nodes: Vec<(Bounds, [usize; 2], Option<[usize; 2]>)>,
+    nodes: Vec<Node>,
 }
 
 impl Boundary {
@@ -209,7 +215,7 @@ impl Boundary {
     /// Whether a cell's middle lies inside another part: a ray from there leaves it more often than it enters it. Two rays have to say
     /// so, as one may run through an edge, where nothing is counted.
     fn is_inside_another(&self, cells: Cells<'_>, cell: CellId, part_of: &[u32]) -> bool {
-        let Some((bounds, ..)) = self.nodes.first() else { return false };
+        let Some(Node { bounds, .. }) = self.nodes.first() else { return false };
         let middle = cells.centroid(cell);
         let length = 2.0 * (bounds.high - bounds.low).max_element();
         // Along an axis, so that few boxes are met; askew, as meshes have edges along axes.
@@ -228,22 +234,22 @@ impl Boundary {
 
     /// Visits the faces of all leaves that a box meets.
     fn visit(&self, node: usize, bounds: &Bounds, sink: &mut impl FnMut(usize)) {
-        let Some((own, [start, end], children)) = self.nodes.get(node) else { return };
-        if !own.meets(bounds) {
+        let Some(node) = self.nodes.get(node) else { return };
+        if !node.bounds.meets(bounds) {
             return;
         }
-        match children {
+        match &node.children {
             Some(children) => children.iter().for_each(|&child| self.visit(child, bounds, sink)),
-            None => (*start..*end).for_each(sink),
+            None => node.faces.clone().for_each(sink),
         }
     }
 }
 
 /// Adds the node of some faces, of which the first has the number `start`.
-fn grow(nodes: &mut Vec<(Bounds, [usize; 2], Option<[usize; 2]>)>, faces: &mut [Outer], start: usize) -> usize {
+fn grow(nodes: &mut Vec<Node>, faces: &mut [Outer], start: usize) -> usize {
     let bounds = faces.iter().map(|face| Bounds::around(&face.points)).fold(Bounds::NOTHING, Bounds::and);
     let index = nodes.len();
-    nodes.push((bounds, [start, start + faces.len()], None));
+    nodes.push(Node { bounds, faces: start..start + faces.len(), children: None });
     if faces.len() > LEAF {
         let side = bounds.high - bounds.low;
         let axis = (0..3).max_by(|&i, &j| side[i].total_cmp(&side[j])).unwrap_or(0);
@@ -252,7 +258,7 @@ fn grow(nodes: &mut Vec<(Bounds, [usize; 2], Option<[usize; 2]>)>, faces: &mut [
         faces.select_nth_unstable_by(middle, |a, b| center(a).total_cmp(&center(b)));
         let (first, second) = faces.split_at_mut(middle);
         let children = [grow(nodes, first, start), grow(nodes, second, start + middle)];
-        nodes[index].2 = Some(children);
+        nodes[index].children = Some(children);
     }
     index
 }

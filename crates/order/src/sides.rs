@@ -1,5 +1,7 @@
 //! On which side of each face its cell and the eye lie: the arrows of the visibility relation.
 
+use std::sync::atomic::{AtomicBool, Ordering};
+
 use glam::DVec3;
 use rayon::prelude::*;
 use robust::Coord3D;
@@ -76,14 +78,15 @@ impl FaceSides {
 
     /// For every cell a byte of its relations to its neighbors.
     ///
-    /// Exact: what the planes in 16 bits leave open is asked of the points.
+    /// Gives whether no such face is seen edge-on. Exact: what the planes in 16 bits leave open is asked of the points.
     pub(crate) fn relations(
         &self,
         cells: Cells<'_>,
         viewpoint: Viewpoint,
         bytes: &mut [u8],
         byte: impl Fn(Relation) -> u8 + Sync,
-    ) {
+    ) -> bool {
+        let is_any_edge_on = AtomicBool::new(false);
         self.planes.glance(viewpoint, bytes, |first, glances, bytes| {
             let mut open = 0;
             for ((glance, &bits), result) in glances.iter().zip(&self.sides[first..]).zip(&mut *bytes) {
@@ -93,11 +96,16 @@ impl FaceSides {
             if open != 0 {
                 for ((lane, &glance), result) in glances.iter().enumerate().zip(bytes) {
                     if !(glance.front | glance.behind) & self.sides[first + lane] >> 4 != 0 {
-                        *result = byte(self.settle(cells, viewpoint, first + lane, glance));
+                        let relation = self.settle(cells, viewpoint, first + lane, glance);
+                        if !(relation.front | relation.behind) & self.sides[first + lane] >> 4 != 0 {
+                            is_any_edge_on.store(true, Ordering::Relaxed);
+                        }
+                        *result = byte(relation);
                     }
                 }
             }
         });
+        !is_any_edge_on.into_inner()
     }
 
     /// A cell's relations where a glance did not tell all.

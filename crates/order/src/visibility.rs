@@ -14,7 +14,7 @@ use crate::{
 
 /// What visibility orders know of one mesh: each part is learned once, when first asked for, and shared by all orders.
 ///
-/// Every call takes the cells of the same mesh.
+/// Every call takes the cells of the same mesh; orders panic if their number is another one.
 #[derive(Debug, Default)]
 pub struct MeshVisibility {
     adjacency: OnceLock<Arc<FaceAdjacency>>,

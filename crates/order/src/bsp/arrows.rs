@@ -27,9 +27,10 @@ pub struct ArrowReport {
 }
 
 /// Pairs that tiles may offer per boundary face, and in any case. Meshes in use offer tens; only long thin triangles
-/// all across each other come near, and then a picture waits for some seconds instead of hours.
-const CANDIDATES_PER_FACE: usize = 2000;
-const CANDIDATES: usize = 1 << 20;
+/// all across each other come near, of which some ten thousand take some seconds a view. Beyond, relations are missing, and the order
+/// says so.
+const CANDIDATES_PER_FACE: usize = 200;
+const CANDIDATES: usize = 1 << 22;
 
 /// Faces that one task puts on sheets.
 const FACES_PER_TASK: usize = 1 << 11;

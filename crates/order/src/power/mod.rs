@@ -152,7 +152,11 @@ impl VisibilityOrder for Power {
         size_of_val(self.keys.as_slice()) + size_of_val(self.heights.as_slice()) + rests + neighbors
     }
 
+    /// # Panics
+    ///
+    /// If `cells` is not the mesh that it was made for, in number.
     fn order(&self, cells: Cells<'_>, viewpoint: Viewpoint, drawn: &[CellId]) -> Order {
+        assert_eq!(cells.tetrahedra.len(), self.keys.len(), "an order is made for one mesh");
         let guarantee = if self.certificate.is_exact_across_gaps() {
             Guarantee::Exact
         } else if self.certificate.is_exact() {
