@@ -44,7 +44,7 @@ fn keys_of_another_order_are_dropped_with_a_warning() {
         ("k-buffer", "slabs", "3", "the order is k-buffer, not bucket"),
         ("centroid", "cycles", "\"cut\"", "looks for no rings"),
         ("power", "cycles", "\"cut\"", "looks for no rings"),
-        ("per-pixel", "keep_heights", "true", "per-pixel has no heights"),
+        ("k-buffer", "keep_heights", "true", "k-buffer has no heights"),
         ("none", "keep_heights", "false", "none has no heights"),
     ] {
         let scene = completed(&format!("[quality]\norder = \"{order}\"\n{key} = {value}"));
@@ -87,6 +87,9 @@ fn an_open_order_is_settled_for_the_mesh() {
     assert_eq!(quality.keep_heights, Some(true));
 
     // What auto has looked for it keeps, whichever order it takes; the scene that is written says so, and reads back without a word.
+    let mut scene = completed("[quality]\nkeep_heights = true");
+    scene.settle_order(OrderMethod::PerPixel, "parts stand in one another");
+    assert_eq!((scene.warnings.as_slice(), scene.file.quality.keep_heights), (&[][..], Some(true)));
     let mut scene = completed("[quality]\nkeep_heights = true\ncycles = \"cut\"");
     scene.settle_order(OrderMethod::Mpvo, "convex");
     let quality = &scene.file.quality;

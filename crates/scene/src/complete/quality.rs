@@ -63,7 +63,7 @@ pub(super) fn finds_rings(order: OrderMethod) -> bool {
 /// Whether heights are looked for with this order, or were with the `"auto"` that took it: a scene written then keeps saying that
 /// they are to be kept.
 fn may_have_heights(order: OrderMethod) -> bool {
-    matches!(order, OrderMethod::Power | OrderMethod::Mpvo | OrderMethod::BspXmpvo)
+    matches!(order, OrderMethod::Power | OrderMethod::Mpvo | OrderMethod::BspXmpvo | OrderMethod::PerPixel)
 }
 
 impl QualitySection {
