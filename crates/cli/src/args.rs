@@ -84,6 +84,7 @@ const CHECK_EXAMPLES: &str = "\
 Examples:
   tetrascope check case.vtu
   tetrascope check case.vtu --view 3,-4,2 --view 0,0,9 --order mpvo --order centroid
+  tetrascope check case.vtu --window 2 --window 6 --window 20    how much a k-buffer mends
   tetrascope check case.toml --heights --json
   tetrascope check case.vtu --map wrong.png        one picture an order: wrong-mpvo.png, ...
 
@@ -102,6 +103,13 @@ pub(crate) struct CheckArgs {
     /// An order to judge; may be repeated [default: all but those by pixels, and power where no heights are known]
     #[arg(long, value_name = "NAME")]
     pub(crate) order: Vec<OrderMethod>,
+    /// Cells that a pixel holds back for --order k-buffer, which joins the orders; may be repeated, a row for each
+    /// [default: 6]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
+    pub(crate) window: Vec<u32>,
+    /// Number of slabs for --order bucket; may be repeated, a row for each [default: 20]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
+    pub(crate) slabs: Vec<u32>,
     /// Look for the heights of --order power where the mesh is not Delaunay
     #[arg(long)]
     pub(crate) heights: bool,

@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use serde_json::{Value, json};
 use tetrascope::{
     Backend, CycleRemedy, OrderCheck, OrderMethod, PixelDifference, Plan, ProjectionName, SceneFile, Volume,
-    VolumeField, resolve_path, write_png,
+    VolumeField, resolve_path, seen_pixels, write_png,
 };
 
 use crate::Failure;
@@ -62,20 +62,17 @@ fn check(args: &CheckArgs, bar: &Bar) -> Result<Value, Failure> {
     let field = volume.field(scene.mesh.field.as_deref())?;
     bar.step("looking at the mesh");
     let solves = args.heights || args.order.contains(&OrderMethod::Power);
-    let mesh = field.check_mesh(&volume.decomposition, solves)?;
+    let mesh = field.check_mesh(&volume.decomposition, solves, args.threads.map(usize::from))?;
     bar.clear();
     let mut warnings: Vec<String> = volume.warnings.clone();
     warnings.extend(field.field.warnings.iter().cloned());
     warnings.extend(field.on_mesh.warning());
+    let orders = orders_of(args, mesh.power.is_some(), &mut warnings);
     warnings.iter().for_each(|text| warning(text));
     if !args.json {
         report::mesh(&volume, &mesh).iter().for_each(|text| line(text));
     }
 
-    let mut orders = if args.order.is_empty() { ORDERS.to_vec() } else { args.order.clone() };
-    if args.order.is_empty() && mesh.power.is_some() {
-        orders.insert(3, OrderMethod::Power);
-    }
     let mut views = Vec::new();
     let wanted = views_of(&scene, args, &field);
     for (index, view) in wanted.iter().enumerate() {
@@ -91,8 +88,9 @@ fn check(args: &CheckArgs, bar: &Bar) -> Result<Value, Failure> {
         bar.step("drawing what pictures are compared with");
         let exact = field.exact_picture(&plan, bar)?;
         bar.clear();
+        let seen = report::Seen { pixels: seen_pixels(&exact), all: exact.pixels().len() };
         if !args.json {
-            report::view(index, &completed.scene.camera, &relations).iter().for_each(|text| line(text));
+            report::view(index, &completed.scene.camera, &relations, seen).iter().for_each(|text| line(text));
         }
         let mut judged = Vec::new();
         for &method in &orders {
@@ -105,13 +103,14 @@ fn check(args: &CheckArgs, bar: &Bar) -> Result<Value, Failure> {
             let map = match &args.map {
                 None => None,
                 Some(path) => {
-                    let several = (orders.len() > 1, wanted.len() > 1);
-                    Some(write_map(&name_of_map(path, index, method, several), &order, &plan)?)
+                    let name = (orders.len() > 1).then(|| name_in_maps(method, &orders));
+                    let view = (wanted.len() > 1).then_some(index);
+                    Some(write_map(&name_of_map(path, view, name.as_deref()), &order, &plan)?)
                 }
             };
             judged.push(report::order_json(&order, map.as_deref()));
         }
-        views.push(report::view_json(&completed.scene.camera, &relations, judged));
+        views.push(report::view_json(&completed.scene.camera, &relations, seen, judged));
     }
     let mut said = report::mesh_json(&volume, &mesh);
     if let Value::Object(said) = &mut said {
@@ -120,6 +119,40 @@ fn check(args: &CheckArgs, bar: &Bar) -> Result<Value, Failure> {
         said.insert("warnings".to_owned(), json!(warnings));
     }
     Ok(said)
+}
+
+/// The orders to be judged, each with every number that it is to go by; a warning for numbers without an order.
+///
+/// - `with_power`: whether heights are known
+fn orders_of(args: &CheckArgs, with_power: bool, warnings: &mut Vec<String>) -> Vec<OrderMethod> {
+    let mut asked = if args.order.is_empty() { ORDERS.to_vec() } else { args.order.clone() };
+    if args.order.is_empty() {
+        if with_power {
+            asked.insert(3, OrderMethod::Power);
+        }
+        if !args.window.is_empty() {
+            asked.push(OrderMethod::KBuffer { window: OrderMethod::DEFAULT_WINDOW });
+        }
+    }
+    let mut warn = |is_there: bool, option: &str, order: &str| {
+        if !is_there {
+            warnings.push(format!("{option} has no effect: {order} is not among the orders"));
+        }
+    };
+    let has_window = asked.iter().any(|order| matches!(order, OrderMethod::KBuffer { .. }));
+    warn(args.window.is_empty() || has_window, "--window", "k-buffer");
+    let has_slabs = asked.iter().any(|order| matches!(order, OrderMethod::Bucket { .. }));
+    warn(args.slabs.is_empty() || has_slabs, "--slabs", "bucket");
+    let with_numbers = |order: OrderMethod| match order {
+        OrderMethod::KBuffer { .. } if !args.window.is_empty() => {
+            args.window.iter().map(|&window| OrderMethod::KBuffer { window }).collect()
+        }
+        OrderMethod::Bucket { .. } if !args.slabs.is_empty() => {
+            args.slabs.iter().map(|&slabs| OrderMethod::Bucket { slabs }).collect()
+        }
+        other => vec![other],
+    };
+    asked.into_iter().flat_map(with_numbers).collect()
 }
 
 /// The scene from every place that was asked for.
@@ -140,14 +173,24 @@ fn views_of(scene: &SceneFile, args: &CheckArgs, field: &VolumeField<'_>) -> Vec
     if args.view.is_empty() { vec![scene.clone()] } else { args.view.iter().map(seen_from).collect() }
 }
 
-/// `wrong.png` for one, else `wrong-2-mpvo.png`: the view's number and the order's name where there are several.
-fn name_of_map(path: &Path, view: usize, method: OrderMethod, (orders, views): (bool, bool)) -> PathBuf {
+/// `mpvo`, or `k-buffer-2` where it is judged with several numbers.
+fn name_in_maps(method: OrderMethod, orders: &[OrderMethod]) -> String {
+    let name = method.to_string();
+    let is_repeated = orders.iter().any(|other| *other != method && other.to_string() == name);
+    match report::number_of(method) {
+        Some((_, number)) if is_repeated => format!("{name}-{number}"),
+        _ => name,
+    }
+}
+
+/// `wrong.png` for one, else `wrong-2-mpvo.png`: the view's number, counted from 0, and the order's name where there are several.
+fn name_of_map(path: &Path, view: Option<usize>, order: Option<&str>) -> PathBuf {
     let mut name = path.file_stem().unwrap_or_default().to_owned();
-    if views {
+    if let Some(view) = view {
         name.push(format!("-{}", view + 1));
     }
-    if orders {
-        name.push(format!("-{method}"));
+    if let Some(order) = order {
+        name.push(format!("-{order}"));
     }
     name.push(".png");
     path.with_file_name(name)
@@ -166,13 +209,17 @@ mod tests {
 
     #[test]
     fn maps_have_names_of_their_own() {
-        let name = |orders, views| {
-            let path = name_of_map(Path::new("a/wrong.png"), 1, OrderMethod::BspXmpvo, (orders, views));
+        let name = |order, view| {
+            let path = name_of_map(Path::new("a/wrong.png"), view, order);
             path.to_str().map(str::to_owned).unwrap()
         };
-        assert_eq!(name(false, false), "a/wrong.png");
-        assert_eq!(name(true, false), "a/wrong-bsp-xmpvo.png");
-        assert_eq!(name(true, true), "a/wrong-2-bsp-xmpvo.png");
-        assert_eq!(name(false, true), "a/wrong-2.png");
+        assert_eq!(name(None, None), "a/wrong.png");
+        assert_eq!(name(Some("bsp-xmpvo"), None), "a/wrong-bsp-xmpvo.png");
+        assert_eq!(name(Some("bsp-xmpvo"), Some(1)), "a/wrong-2-bsp-xmpvo.png");
+        assert_eq!(name(None, Some(1)), "a/wrong-2.png");
+        let [two, six] = [2, 6].map(|window| OrderMethod::KBuffer { window });
+        assert_eq!(name_in_maps(six, &[six, OrderMethod::Mpvo]), "k-buffer");
+        assert_eq!(name_in_maps(six, &[two, six]), "k-buffer-6");
+        assert_eq!(name_in_maps(OrderMethod::Mpvo, &[two, OrderMethod::Mpvo]), "mpvo");
     }
 }

@@ -18,6 +18,16 @@ use clap::Parser;
 
 use args::{Cli, Command};
 
+/// Where it says what may be said.
+const fn help_of(command: Option<&Command>) -> &'static str {
+    match command {
+        None => "tetrascope --help",
+        Some(Command::Render(_)) => "tetrascope render --help",
+        Some(Command::Info(_)) => "tetrascope info --help",
+        Some(Command::Check(_)) => "tetrascope check --help",
+    }
+}
+
 /// Why a command gave up.
 #[derive(Debug)]
 enum Failure {
@@ -45,7 +55,8 @@ fn main() -> ExitCode {
     match done {
         Ok(()) => ExitCode::SUCCESS,
         Err(Failure::Usage(message)) => {
-            report::error(&format!("{message}\n\nFor more information, try 'tetrascope render --help'."));
+            let help = help_of(cli.command.as_ref());
+            report::error(&format!("{message}\n\nFor more information, try '{help}'."));
             ExitCode::from(2)
         }
         Err(Failure::Input(message)) => {

@@ -88,7 +88,7 @@ impl Job<'_> {
 
         let rendered = field.render(&plan, bar)?;
         bar.clear();
-        report.rendered(&rendered, &field.order_worth(&plan, &rendered)?);
+        report.rendered(&rendered, &plan, &field.order_worth(&plan, &rendered)?);
         if let Some(warning) = field.keep_heights(&completed, &plan)? {
             report.warn(&warning);
         }
@@ -202,11 +202,9 @@ fn override_by_options(scene: &mut SceneFile, args: &RenderArgs) {
         (quality.table_size, quality.table_lengths) = (args.table_size, None);
     }
     set_some(&mut quality.length_axis, args.length_axis.as_ref());
-    if args.order.is_some_and(|asked| asked != quality.order) {
-        // What the scene file says belongs to the order that is replaced.
-        (quality.slabs, quality.window, quality.cycles, quality.keep_heights) = (None, None, None, None);
+    if let Some(order) = args.order {
+        quality.replace_order(order);
     }
-    set(&mut quality.order, args.order.as_ref());
     set_some(&mut quality.slabs, args.slabs.as_ref());
     set_some(&mut quality.window, args.window.as_ref());
     set_some(&mut quality.cycles, args.cycles.as_ref());

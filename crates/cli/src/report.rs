@@ -5,8 +5,8 @@ use std::time::Duration;
 
 use serde_json::{Map, Value, json};
 use tetrascope::{
-    Backend, Completed, Gradients, Integration, LengthAxis, OrderWorth, Plan, Projection, Rendered, Volume,
-    VolumeField, short,
+    Backend, Completed, CycleRemedy, Gradients, Integration, LengthAxis, OrderWorth, Plan, Projection, Rendered,
+    Volume, VolumeField, short,
 };
 
 /// Collects what was done; people read it line by line as it happens, machines at the end.
@@ -137,13 +137,16 @@ impl Report {
         self.timings.push(("choose".to_owned(), time));
     }
 
-    pub(crate) fn rendered(&mut self, rendered: &Rendered, worth: &OrderWorth) {
+    pub(crate) fn rendered(&mut self, rendered: &Rendered, plan: &Plan, worth: &OrderWorth) {
         let counts = &rendered.counts;
         self.say(
             "drawn",
             &format!(
-                "{} of {} tetrahedra ({} invisible by the transfer function, {} out of view or between pixels), {} fragments",
-                counts.drawn, counts.cells, counts.transparent, counts.outside, counts.fragments
+                "{} ({} invisible by the transfer function, {} out of view or between pixels), {} fragments",
+                drawn(rendered, plan),
+                counts.transparent,
+                counts.outside,
+                counts.fragments
             ),
         );
         self.say("guarantee", &worth.summary);
@@ -205,6 +208,16 @@ impl Report {
             object(&Value::Object(self.object));
         }
     }
+}
+
+/// How much of the mesh was drawn; cells that were cut, in rings or for their fans at the plane of the eye, count piece by piece.
+fn drawn(rendered: &Rendered, plan: &Plan) -> String {
+    let counts = &rendered.counts;
+    let seen = counts.cells - counts.transparent - counts.outside;
+    if plan.cycles == CycleRemedy::Cut && rendered.order.rings > 0 || counts.drawn > seen {
+        return format!("{} tetrahedra and pieces, of {} tetrahedra", counts.drawn, counts.cells);
+    }
+    format!("{} of {} tetrahedra", counts.drawn, counts.cells)
 }
 
 /// Sizes of the integration's table; null if it has none.

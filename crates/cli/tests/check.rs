@@ -42,6 +42,24 @@ fn write_row(folder: &Path) {
     write_mesh(folder, &points, &[[0, 1, 2, 3], [4, 5, 6, 7], [8, 9, 10, 11]]);
 }
 
+/// Two cells that need heights, and beside them three sticks of which each lies over the next one, seen along z.
+fn write_ring(folder: &Path) {
+    let mut points = vec![[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0], [0.9; 3]];
+    let mut cells = vec![[0, 1, 2, 3], [1, 2, 3, 4]];
+    for stick in 0..3 {
+        let (sin, cos) = (f64::from(stick) * std::f64::consts::TAU / 3.0).sin_cos();
+        // Along the sides of a triangle around a circle of radius 1, rising; the corners are at ±√3.
+        let at = |along: f64, beside: f64, above: f64| {
+            let across = 1.0 + beside;
+            [10.0 + along * cos - across * sin, along * sin + across * cos, 0.4 * along + above]
+        };
+        let first = points.len() as u32;
+        points.extend([at(-2.5, -0.1, 0.0), at(-2.5, 0.1, 0.0), at(2.5, 0.0, -0.1), at(2.5, 0.0, 0.1)]);
+        cells.push([first + 1, first, first + 2, first + 3]);
+    }
+    write_mesh(folder, &points, &cells);
+}
+
 fn order<'a>(view: &'a Value, name: &str) -> &'a Value {
     view["orders"].as_array().unwrap().iter().find(|order| order["order"] == name).unwrap()
 }
@@ -96,6 +114,15 @@ fn convex_and_delaunay_or_not() {
         let report = json(path, &["mesh.vtk", "--size", "16", "--order", "none", "--heights"]);
         assert_eq!(report["one_key"]["proven"], true, "two cells can always be lifted");
     }
+    // What is proven across faces may be open across gaps, and the other way round nothing is.
+    write_ring(path);
+    let args = ["mesh.vtk", "--size", "16", "--order", "none", "--heights"];
+    let report = json(path, &args);
+    let one_key = &report["one_key"];
+    assert_eq!((&one_key["proven"], &one_key["proven_across_gaps"]), (&true.into(), &false.into()));
+    assert!(one_key["open_across_gaps"].as_u64().unwrap() > 0);
+    let text = good(path, &[&["check"], &args[..]].concat());
+    assert!(text.contains("one key     across faces, not across gaps: proven for all 1 faces"), "{text}");
     // The second cell is folded back into the first.
     write_mesh(path, &with([0.1; 3]), &[[0, 1, 2, 3], [1, 2, 3, 4]]);
     let report = json(path, &["mesh.vtk", "--size", "16", "--heights", "--order", "none"]);
@@ -147,6 +174,67 @@ fn pixels_are_compared() {
         assert_eq!(map, format!("wrong-{name}.png"));
         assert!(std::fs::read(path.join(map)).unwrap().starts_with(b"\x89PNG"));
     }
+    let seen = view["pixels_seen"].as_u64().unwrap();
+    assert!(seen > 10 && seen < 4096, "{seen}");
+}
+
+#[test]
+fn a_view_in_which_nothing_is_seen_is_told() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path();
+    write_row(path);
+    let args = ["mesh.vtk", "--size", "16", "--order", "none", "--view", "1e9,0,0"];
+    let report = json(path, &args);
+    assert_eq!(report["views"][0]["pixels_seen"], 0);
+    assert_eq!(order(&report["views"][0], "none")["pixels"]["above_rounding"], 0);
+    let text = good(path, &[&["check"], &args[..]].concat());
+    assert!(text.contains("seen        in no pixel of 256"), "{text}");
+}
+
+/// A window of three holds all that a ray meets here, and one slab is no order at all.
+#[test]
+fn orders_with_numbers_are_judged_for_each() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path();
+    write_row(path);
+    let numbers = ["--window", "1", "--window", "3", "--slabs", "1", "--slabs", "50"];
+    let common = ["mesh.vtk", "--size", "32", "--view", "0.1,0.2,40"];
+    let report = json(path, &[&common, &numbers[..], &["--map", "wrong.png"]].concat());
+    let orders = report["views"][0]["orders"].as_array().unwrap();
+    let with = |name: &str, key: &str, number: u32| {
+        orders.iter().find(|order| order["order"] == name && order[key] == number).unwrap()
+    };
+    assert_eq!(orders.iter().filter(|order| order["order"] == "k-buffer").count(), 2);
+    assert_eq!(with("k-buffer", "window", 3)["pixels"]["above_rounding"], 0);
+    assert_eq!(with("k-buffer", "window", 3)["map"], "wrong-k-buffer-3.png");
+    assert_eq!(with("bucket", "slabs", 50)["pairs"]["across_gaps"]["misordered"], 0);
+    assert_eq!(with("bucket", "slabs", 1)["pairs"]["across_gaps"]["misordered"], 2);
+    let text = good(path, &[&["check"], &common[..], &numbers[..]].concat());
+    for row in ["k-buffer, 1 ", "k-buffer, 3 ", "bucket, 1 ", "bucket, 50 "] {
+        assert!(text.lines().any(|line| line.starts_with(row)), "{row}: {text}");
+    }
+    let report = json(path, &[&common[..], &["--order", "mpvo", "--window", "2"]].concat());
+    let warnings = report["warnings"].as_array().unwrap();
+    assert_eq!(warnings, &["--window has no effect: k-buffer is not among the orders"]);
+}
+
+#[test]
+fn the_mesh_that_is_drawn_is_described() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path();
+    let corner = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+    write_mesh(path, &[&corner[..], &[[1.5; 3]]].concat(), &[[0, 1, 2, 3], [1, 2, 3, 4]]);
+    let text = std::fs::read_to_string(path.join("mesh.vtk")).unwrap();
+    std::fs::write(path.join("mesh.vtk"), format!("{}nan\n", text.strip_suffix("4\n").unwrap())).unwrap();
+    let report = json(path, &["mesh.vtk", "--size", "16", "--order", "none"]);
+    assert_eq!((&report["mesh"]["tetrahedra"], &report["field_not_finite"]), (&1.into(), &1.into()));
+    let faces = &report["faces"];
+    assert_eq!((&faces["all"], &faces["boundary"], &report["connected_parts"]), (&4.into(), &4.into(), &1.into()));
+    assert_eq!(report["convex"], true);
+    let text = good(path, &["check", "mesh.vtk", "--size", "16", "--order", "none"]);
+    for part in ["5 points, 1 tetrahedra", "1 where the field is not finite", "4: 4 on the boundary"] {
+        assert!(text.contains(part), "{part}: {text}");
+    }
 }
 
 #[test]
@@ -159,6 +247,8 @@ fn what_cannot_be_judged_is_an_error() {
         (1, &["check", "mesh.vtk", "--field", "t"], "\"t\""),
         (1, &["check", "mesh.vtk", "--map", "nowhere/a.png"], "no folder nowhere"),
         (2, &["check", "mesh.vtk", "--map", "a.exr"], ".png"),
+        (2, &["check", "mesh.vtk", "--map", "a.jpg"], "'tetrascope check --help'"),
+        (2, &["check", "mesh.vtk", "--window", "0"], "0"),
         (2, &["check", "mesh.vtk", "--order", "depth"], "bsp-xmpvo"),
         (2, &["check", "mesh.vtk", "--view", "1,2"], "has 2 numbers"),
         (2, &["check", "mesh.vtk", "--view", "1,2,3", "--eye", "1,2,3"], "cannot be used with"),
@@ -215,4 +305,83 @@ fn heights_are_kept_beside_the_mesh() {
         assert!(out.contains("proven for all 1 faces"), "{out}");
         assert_eq!(std::fs::read(&kept).unwrap(), bytes, "{said}");
     }
+}
+
+/// The heights are proven for all faces, and across gaps nothing can be: auto takes another order, and the search is not repeated.
+#[test]
+fn heights_that_auto_looked_for_are_kept_whichever_order_it_takes() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path();
+    write_ring(path);
+    let render = |options: &[&str]| {
+        let output = tetrascope(path, &[&["render"], options, &["--size", "8"]].concat());
+        assert_eq!(output.status.code(), Some(0));
+        assert_eq!(String::from_utf8(output.stderr).unwrap(), "", "{options:?}");
+        String::from_utf8(output.stdout).unwrap()
+    };
+    let kept = path.join("mesh.vtk.heights");
+    let out = render(&["mesh.vtk", "--keep-heights", "--write-scene", "a.toml"]);
+    assert!(out.contains("order       bsp-xmpvo"), "{out}");
+    let written = std::fs::read_to_string(path.join("a.toml")).unwrap();
+    assert!(written.contains("order = \"bsp-xmpvo\"") && written.contains("keep_heights = true"), "{written}");
+    // Others that are as good: found anew, they would be those of before.
+    let bytes = std::fs::read(&kept).unwrap();
+    let (header, heights) = bytes.split_at(24);
+    let twice = heights.chunks_exact(8).flat_map(|b| (2.0 * f64::from_le_bytes(b.try_into().unwrap())).to_le_bytes());
+    let others: Vec<u8> = header.iter().copied().chain(twice).collect();
+    std::fs::write(&kept, &others).unwrap();
+    for again in [&["mesh.vtk", "--keep-heights"][..], &["a.toml"], &["a.toml", "--order", "auto"]] {
+        render(again);
+        assert!(std::fs::read(&kept).unwrap() == others, "{again:?}");
+    }
+}
+
+#[test]
+fn heights_that_order_nothing_are_not_kept_and_that_is_said() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path();
+    // The second cell is folded back into the first.
+    let points = [[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0], [0.1; 3]];
+    write_mesh(path, &points, &[[0, 1, 2, 3], [1, 2, 3, 4]]);
+    let output = tetrascope(path, &["render", "mesh.vtk", "--size", "8", "--keep-heights"]);
+    let text = String::from_utf8(output.stderr).unwrap();
+    assert_eq!(output.status.code(), Some(0), "{text}");
+    assert!(text.contains("no heights were found that order this mesh (1 of 1 faces"), "{text}");
+    assert!(!path.join("mesh.vtk.heights").exists());
+}
+
+#[test]
+fn remedies_for_rings_stay_with_orders_that_find_them() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path();
+    write_ring(path);
+    let scene = "[mesh]\npath = \"mesh.vtk\"\n[camera]\neye = [10, 0, 12]\ntarget = [10, 0, 0]\n[quality]\ncycles = \"report\"\n";
+    std::fs::write(path.join("a.toml"), scene).unwrap();
+    let render = |options: &[&str]| {
+        let output =
+            tetrascope(path, &[&["render", "a.toml", "--size", "32", "--write-scene", "b.toml"], options].concat());
+        let text = |bytes: Vec<u8>| String::from_utf8(bytes).unwrap();
+        let written = std::fs::read_to_string(path.join("b.toml")).unwrap();
+        (text(output.stdout), text(output.stderr), written)
+    };
+    for options in [&[][..], &["--order", "bsp-xmpvo"]] {
+        let (out, errors, written) = render(options);
+        assert!(errors.is_empty() && written.contains("cycles = \"report\""), "{errors}{written}");
+        assert!(
+            out.contains("cycles      report") && out.contains("3 tetrahedra hide one another in 1 ring,"),
+            "{out}"
+        );
+        assert!(out.contains("drawn       3 of 5 tetrahedra"), "{out}");
+    }
+    let (out, _, _) = render(&["--cycles", "cut"]);
+    assert!(out.contains("tetrahedra and pieces, of 5 tetrahedra"), "{out}");
+    assert!(out.contains("are cut, where they can be"), "{out}");
+    let (_, errors, written) = render(&["--order", "centroid"]);
+    assert!(errors.is_empty() && !written.contains("cycles"), "{errors}{written}");
+    // A Delaunay mesh is given "power", which finds no rings.
+    let points = [[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0], [1.5; 3]];
+    write_mesh(path, &points, &[[0, 1, 2, 3], [1, 2, 3, 4]]);
+    let (_, errors, written) = render(&["--eye", "3,4,5"]);
+    assert!(errors.contains("quality.cycles has no effect: the order power looks for no rings"), "{errors}");
+    assert!(!written.contains("cycles"), "{written}");
 }

@@ -166,7 +166,7 @@ fn wrong_input_is_one() {
 #[test]
 fn wrong_usage_is_two() {
     let run = Run::new();
-    has(&run.bad(2, &["render", "mesh.vtu", "-o", "a.jpg"]), &["a.jpg", ".png and .exr"]);
+    has(&run.bad(2, &["render", "mesh.vtu", "-o", "a.jpg"]), &["a.jpg", ".png and .exr", "'tetrascope render --help'"]);
     has(&run.bad(2, &["render", "mesh.vtu", "--write-scene", "a.yaml"]), &["a.yaml", ".toml and .json"]);
     has(&run.bad(2, &["render", "mesh.vtu", "--eye", "1,2"]), &["has 2 numbers"]);
     has(&run.bad(2, &["render", "mesh.vtu", "--integration", "exakt"]), &["\"exact\""]);
@@ -273,6 +273,8 @@ fn methods_that_do_not_go_together_are_refused() {
     has(&text, &["quality.integration", "\"partial\"", "\"emitter\"", "\"exact\""]);
     let text = run.bad(1, &["render", "mesh.vtu", "--integration", "vertex", "--isosurface", "1"]);
     has(&text, &["quality.integration = \"vertex\"", "cannot cut", "\"map-smooth\""]);
+    let text = run.bad(1, &["render", "mesh.vtu", "--integration", "vertex", "--order", "mpvo", "--cycles", "cut"]);
+    has(&text, &["quality.cycles = \"cut\"", "quality.integration = \"vertex\"", "\"per-pixel\""]);
     run.write(
         "a.toml",
         "[mesh]\npath = \"mesh.vtu\"\n[quality]\nintegration = \"exact\"\nisosurfaces = \"map-stopped\"\n\

@@ -11,7 +11,7 @@ use crate::file::{Choice, ProjectionName, QualitySection, SceneFile};
 use crate::text::short;
 use crate::{Backend, Decision, MeshFacts, Scene, SceneError, defaults};
 
-use quality::{fill_cycles, fill_isosurface_method, fill_order, fill_tables, finds_rings};
+use quality::{drop_what_the_order_has_not, fill_cycles, fill_isosurface_method, fill_order, fill_tables, finds_rings};
 use surfaces::{fill_isosurfaces, fill_light};
 
 /// The largest error wanted in a channel when a scene does not say: one step of 8 bits.
@@ -28,6 +28,8 @@ pub struct Completed {
     pub decisions: Vec<Decision>,
     /// What the user should know: keys without an effect, a constant field.
     pub warnings: Vec<String>,
+    /// Whether the scene itself said what is done about rings.
+    has_asked_for_cycles: bool,
 }
 
 impl Completed {
@@ -39,6 +41,8 @@ impl Completed {
     }
 
     /// Gives an order that was left open its name, in the scene and in the file, with the reason.
+    ///
+    /// Keys of the scene that have no effect with this order are dropped with a warning.
     pub fn settle_order(&mut self, order: OrderMethod, reason: &str) {
         self.scene.order = Some(order);
         name_order(&mut self.file.quality, order);
@@ -49,12 +53,13 @@ impl Completed {
         }
         if !finds_rings(order) {
             self.scene.cycles = CycleRemedy::Report;
-            self.file.quality.cycles = None;
             self.decisions.retain(|decision| decision.subject != "cycles");
+            if !self.has_asked_for_cycles {
+                // The default: nobody misses it.
+                self.file.quality.cycles = None;
+            }
         }
-        if order != OrderMethod::Power {
-            self.file.quality.keep_heights = None;
-        }
+        drop_what_the_order_has_not(&mut self.file.quality, order, &mut self.warnings);
     }
 }
 
@@ -109,13 +114,13 @@ impl SceneFile {
             threads: None,
         };
         scene.tables = fill_tables(&mut file.quality, scene.chosen_integration().0, &mut warnings);
-        let order = scene.decided_order();
-        scene.cycles = fill_cycles(&mut file.quality, order, scene.order.is_none(), &mut warnings);
+        let has_asked_for_cycles = file.quality.cycles.is_some();
+        scene.cycles = fill_cycles(&mut file.quality, scene.decided_order(), &mut warnings);
         let plan = scene.plan()?;
         decisions.extend(plan.decisions);
         file.quality.integration = Choice::Named(plan.integration);
         name_order(&mut file.quality, plan.order);
-        Ok(Completed { file, scene, decisions, warnings })
+        Ok(Completed { file, scene, decisions, warnings, has_asked_for_cycles })
     }
 
     /// Keys that are part of the contract but whose effect is not built: better no picture than another one.

@@ -151,6 +151,11 @@ impl Plan {
         }
     }
 
+    /// Whether the picture is the same whatever is blended first: a surface hides what is behind it in every optical model.
+    pub const fn commutes(&self) -> bool {
+        self.model.is_commutative() && self.isosurfaces.is_none()
+    }
+
     /// Sizes of the integration's table: those of the plan, else [`TableSettings::of`] the method; `None` if it has none.
     pub fn table_settings(&self) -> Option<TableSettings> {
         let usual = TableSettings::of(self.integration)?;

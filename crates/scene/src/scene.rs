@@ -69,6 +69,7 @@ impl Scene {
         let mut decisions = Vec::new();
         let (integration, tables) = self.decide_integration(&mut decisions)?;
         self.check_isosurface_method(integration, isosurfaces.as_ref())?;
+        self.check_cycles(integration)?;
         self.decide_isosurfaces(isosurfaces.as_ref(), &mut decisions);
         let order = self.decide_order(&mut decisions)?;
         let plan = Plan {

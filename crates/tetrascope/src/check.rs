@@ -1,24 +1,28 @@
 //! What `tetrascope check` tells: what a mesh is like for visibility orders, and how far each of them is right from a view.
 
+use std::borrow::Cow;
 use std::time::{Duration, Instant};
 
 use tetrascope_mesh::{CellId, Decomposition, FaceAdjacency, MeshReport, check};
-use tetrascope_order::{OrderMethod, PowerCertificate, Relations, Verdict};
+use tetrascope_order::{Budget, OrderMethod, Power, PowerCertificate, Relations, Verdict};
 use tetrascope_scene::{Backend, Plan, Progress};
 use tetrascope_view::LinearImage;
 
+use crate::threads::on_threads;
 use crate::{Error, VolumeField};
 
 /// What a mesh is like for visibility orders, from wherever it is seen.
 #[derive(Clone, Debug, PartialEq)]
 pub struct MeshCheck {
-    /// What is odd about the mesh.
+    /// What is odd about the mesh that is drawn.
     pub report: MeshReport,
+    /// Tetrahedra left out of it since the field is not finite at one of their corners.
+    pub left_out: usize,
     /// Faces of the tetrahedra, each once.
     pub faces: usize,
     /// Whether no ray leaves the mesh and enters it again.
     pub is_convex: bool,
-    /// What is proven of the heights `|p|²`: whether the mesh is Delaunay.
+    /// What is proven of the heights `|p|²`, whatever other heights are known: whether the mesh is Delaunay.
     pub delaunay: PowerCertificate,
     /// What is proven of the best heights known; `None` where none were looked for.
     pub power: Option<PowerCertificate>,
@@ -77,6 +81,11 @@ impl PixelDifference {
     }
 }
 
+/// Pixels in which anything is seen: those with a channel that is not 0.
+pub fn seen_pixels(picture: &LinearImage) -> usize {
+    picture.pixels().iter().filter(|pixel| pixel.iter().any(|channel| *channel != 0.0)).count()
+}
+
 /// Where two pictures of one size differ; pixels that only one of them has count as infinitely different.
 pub fn compare_pictures(picture: &LinearImage, exact: &LinearImage) -> PixelDifference {
     let difference = |(a, b): (&[f32; 4], &[f32; 4])| {
@@ -89,28 +98,53 @@ pub fn compare_pictures(picture: &LinearImage, exact: &LinearImage) -> PixelDiff
 }
 
 impl VolumeField<'_> {
-    /// Looks at the mesh that this field is drawn on.
+    /// Looks at the mesh that this field is drawn on: the volume's, without the cells at which the field is not finite.
     ///
     /// - `decomposition`: of the volume that the field is from
     /// - `with_heights`: whether heights are looked for where the mesh is not Delaunay, which may take seconds
+    /// - `threads`: as [`Plan::threads`]
     ///
     /// # Errors
-    /// [`Error::Render`] as [`Self::renderer`].
-    pub fn check_mesh(&self, decomposition: &Decomposition, with_heights: bool) -> Result<MeshCheck, Error> {
+    /// [`Error::Render`] as [`Self::renderer`], and if the threads cannot be started.
+    pub fn check_mesh(
+        &self,
+        decomposition: &Decomposition,
+        with_heights: bool,
+        threads: Option<usize>,
+    ) -> Result<MeshCheck, Error> {
+        on_threads(threads, || self.check_mesh_here(decomposition, with_heights))?
+    }
+
+    fn check_mesh_here(&self, decomposition: &Decomposition, with_heights: bool) -> Result<MeshCheck, Error> {
         let renderer = self.renderer()?;
         let (cells, visibility) = (renderer.cells(), renderer.visibility());
-        let report = check(decomposition, &FaceAdjacency::new(decomposition.mesh.tetrahedra()));
+        let report = self.report(decomposition);
         let adjacency = visibility.adjacency(cells);
         let joined: usize =
             adjacency.table().iter().flatten().filter(|&&neighbor| neighbor != FaceAdjacency::NONE).count() / 2;
         let faces = joined + adjacency.boundary_faces().len() + adjacency.non_manifold_faces().len();
-        let delaunay = visibility.quick_certificate(cells);
-        let power = if delaunay.is_exact() {
-            Some(delaunay)
+        let is_convex = visibility.is_convex(cells);
+        let known = visibility.quick_certificate(cells);
+        let delaunay = if self.made.get().is_some_and(|made| made.has_read_heights) {
+            // What is known is of those heights.
+            let squares = Power::with_adjacency(cells, adjacency, Budget { visits_per_face: 0 });
+            squares.prove_gaps(cells, adjacency, is_convex).certificate()
         } else {
-            with_heights.then(|| visibility.power(cells).certificate())
+            known
         };
-        Ok(MeshCheck { report, faces, is_convex: visibility.is_convex(cells), delaunay, power })
+        let power =
+            if known.is_exact() { Some(known) } else { with_heights.then(|| visibility.power(cells).certificate()) };
+        Ok(MeshCheck { report, left_out: self.on_mesh.left_out, faces, is_convex, delaunay, power })
+    }
+
+    /// What is odd about the mesh that is drawn.
+    fn report(&self, decomposition: &Decomposition) -> MeshReport {
+        let of =
+            |decomposition: &Decomposition| check(decomposition, &FaceAdjacency::new(decomposition.mesh.tetrahedra()));
+        match &self.on_mesh.mesh {
+            Cow::Borrowed(_) => of(decomposition),
+            Cow::Owned(mesh) => of(&Decomposition { mesh: mesh.clone(), ..decomposition.clone() }),
+        }
     }
 
     /// Which cells come before which as the plan's view has them.
@@ -118,8 +152,9 @@ impl VolumeField<'_> {
     /// # Errors
     /// [`Error::Render`] as [`Self::renderer`].
     pub fn relations(&self, plan: &Plan) -> Result<Relations<'_>, Error> {
-        let renderer = self.renderer()?;
-        Ok(renderer.visibility().relations(renderer.cells(), self.view(plan).viewpoint()))
+        let renderer = self.renderer_on(plan.threads)?;
+        let viewpoint = self.view(plan).viewpoint();
+        on_threads(plan.threads, || renderer.visibility().relations(renderer.cells(), viewpoint))
     }
 
     /// The picture that orders are measured by: every pixel sorts what its ray meets.
@@ -145,16 +180,18 @@ impl VolumeField<'_> {
         exact: &LinearImage,
         progress: &dyn Progress,
     ) -> Result<OrderCheck, Error> {
-        let renderer = self.renderer()?;
+        let renderer = self.renderer_on(plan.threads)?;
         let cells = renderer.cells();
         let viewpoint = self.view(plan).viewpoint();
         let all: Vec<CellId> = (0..cells.tetrahedra.len() as u32).map(CellId).collect();
-        let order = renderer.visibility().prepare(cells, method);
-        let start = Instant::now();
-        let sorted = order.order(cells, viewpoint, &all);
-        let sorted_in = start.elapsed();
         let is_left_to_pixels = matches!(method, OrderMethod::KBuffer { .. } | OrderMethod::PerPixel);
-        let verdict = (!is_left_to_pixels).then(|| relations.judge(&sorted.front_to_back));
+        let (sorted_in, verdict) = on_threads(plan.threads, || {
+            let order = renderer.visibility().prepare(cells, method);
+            let start = Instant::now();
+            let sorted = order.order(cells, viewpoint, &all);
+            let sorted_in = start.elapsed();
+            (sorted_in, (!is_left_to_pixels).then(|| relations.judge(&sorted.front_to_back)))
+        })?;
         let plan = Plan { order: method, backend: Backend::Cpu, ..plan.clone() };
         let start = Instant::now();
         let picture = renderer.render(&plan, progress)?.image;

@@ -5,9 +5,9 @@ use std::sync::Arc;
 
 use tetrascope_cpu::CpuRenderer;
 use tetrascope_io::{IoError, read_heights, write_heights};
-use tetrascope_order::OrderMethod;
 use tetrascope_scene::{Backend, Completed, Plan};
 
+use crate::volume::Made;
 use crate::{Error, VolumeField};
 
 impl VolumeField<'_> {
@@ -20,7 +20,7 @@ impl VolumeField<'_> {
 
     /// Makes the renderer with the heights that were kept, if there are any and they are proven; a warning if they do not fit.
     pub(crate) fn read_heights(&self) -> Result<Option<String>, Error> {
-        if self.renderer.get().is_some() {
+        if self.made.get().is_some() {
             return Ok(None);
         }
         let Some(path) = self.heights_path() else {
@@ -49,25 +49,35 @@ impl VolumeField<'_> {
                 certificate.faces
             )));
         }
-        self.renderer.get_or_init(|| Arc::new(renderer));
+        self.made.get_or_init(|| Made { renderer: Arc::new(renderer), has_read_heights: true });
         Ok(None)
     }
 
-    /// Writes heights that were found and proven for a picture, if its scene says so; a warning if that fails.
+    /// Writes heights that were looked for and proven, if the scene says so, whichever order it was given then: they need not be looked for
+    /// again. A warning if none are proven, or if the file cannot be written.
+    ///
+    /// Proven is what [`PowerCertificate::is_exact`](tetrascope_order::PowerCertificate::is_exact) says; gaps of the mesh may stay open.
     ///
     /// # Errors
     /// [`Error::Render`] as [`Self::renderer`].
     pub fn keep_heights(&self, completed: &Completed, plan: &Plan) -> Result<Option<String>, Error> {
         let is_asked = completed.file.quality.keep_heights == Some(true);
-        if !is_asked || plan.order != OrderMethod::Power || plan.backend != Backend::Cpu {
+        if !is_asked || plan.backend != Backend::Cpu {
             return Ok(None);
         }
         let renderer = self.renderer()?;
         let (Some(heights), Some(path)) = (renderer.visibility().found_heights(), self.heights_path()) else {
             return Ok(None);
         };
-        if !renderer.visibility().power(renderer.cells()).certificate().is_exact() {
-            return Ok(None);
+        let certificate = renderer.visibility().power(renderer.cells()).certificate();
+        if !certificate.is_exact() {
+            return Ok(Some(format!(
+                "no heights were found that order this mesh ({} of {} faces between cells are not proven, and {} cells are too thin for \
+                 their key), and none are kept: quality.keep_heights has them looked for every time",
+                certificate.violated + certificate.folded + certificate.flat,
+                certificate.faces,
+                certificate.imprecise
+            )));
         }
         Ok(write_heights(&path, heights).err().map(|error| format!("{error}. The heights are not kept")))
     }

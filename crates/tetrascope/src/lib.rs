@@ -33,9 +33,10 @@ mod error;
 mod heights;
 mod order_worth;
 mod render;
+mod threads;
 mod volume;
 
-pub use check::{MeshCheck, OrderCheck, PixelDifference, compare_pictures};
+pub use check::{MeshCheck, OrderCheck, PixelDifference, compare_pictures, seen_pixels};
 pub use error::Error;
 pub use order_worth::OrderWorth;
 pub use render::{Picture, is_blank, render_scene, render_volume, warn_of_non_finite};

@@ -4,6 +4,7 @@ use tetrascope_cpu::Rendered;
 use tetrascope_order::{CycleRemedy, Guarantee, OrderMethod, PowerCertificate};
 use tetrascope_scene::{Backend, Completed, Plan, short};
 
+use crate::threads::on_threads;
 use crate::{Error, VolumeField};
 
 /// What the order of a picture was worth, in sentences.
@@ -27,23 +28,31 @@ impl VolumeField<'_> {
     /// # Errors
     /// [`Error::Scene`] as [`Scene::plan`](tetrascope_scene::Scene::plan), [`Error::Render`] as [`Self::renderer`].
     pub fn plan(&self, completed: &mut Completed) -> Result<Plan, Error> {
+        on_threads(completed.scene.threads, || self.settle(completed))??;
+        let mut plan = completed.scene.plan()?;
+        plan.decisions.clone_from(&completed.decisions);
+        Ok(plan)
+    }
+
+    /// Reads heights that were kept, and settles an order that was left open.
+    fn settle(&self, completed: &mut Completed) -> Result<(), Error> {
         let keeps_heights = completed.file.quality.keep_heights == Some(true);
-        if keeps_heights && completed.scene.backend == Backend::Cpu {
+        let is_open = completed.leaves_order_open();
+        let has_use = is_open || completed.scene.order == Some(OrderMethod::Power);
+        if keeps_heights && has_use && completed.scene.backend == Backend::Cpu {
             completed.warnings.extend(self.read_heights()?);
         }
-        if completed.leaves_order_open() {
+        if is_open {
             let renderer = self.renderer()?;
             let (cells, visibility) = (renderer.cells(), renderer.visibility());
-            if keeps_heights {
+            if keeps_heights && self.heights_path().is_some() {
                 // Looking for heights takes longer than many frames; those that are kept are looked for once.
                 visibility.power(cells);
             }
             let choice = visibility.choose(cells);
             completed.settle_order(choice.method, choice.reason);
         }
-        let mut plan = completed.scene.plan()?;
-        plan.decisions.clone_from(&completed.decisions);
-        Ok(plan)
+        Ok(())
     }
 
     /// What the order of a picture of this field was worth.
@@ -52,7 +61,7 @@ impl VolumeField<'_> {
     /// [`Error::Render`] as [`Self::renderer`].
     pub fn order_worth(&self, plan: &Plan, rendered: &Rendered) -> Result<OrderWorth, Error> {
         let mut worth = OrderWorth::default();
-        if plan.model.is_commutative() && plan.isosurfaces.is_none() {
+        if plan.commutes() {
             "nothing depends on the order".clone_into(&mut worth.summary);
             return Ok(worth);
         }
@@ -115,9 +124,10 @@ fn rings(remedy: CycleRemedy, rendered: &Rendered) -> String {
     let plural = if rings == 1 { "" } else { "s" };
     let done = match remedy {
         CycleRemedy::Report => {
-            "they are blended by the distance of their centers, which is wrong there; cycles \"per-pixel\" and \"cut\" are right"
+            "they are blended by the distance of their centers, which may be wrong there; cycles \"per-pixel\" is right, and so is \
+             \"cut\" for those that can be cut"
         }
-        CycleRemedy::Cut => "those that are drawn are cut so that an order is right",
+        CycleRemedy::Cut => "those of them that are drawn are cut, where they can be, so that an order is right",
         CycleRemedy::PerPixel => "the pixels that they cover are sorted ray by ray",
     };
     format!(

@@ -141,3 +141,54 @@ fn power_that_is_not_proven_is_a_warning_with_figures() {
     assert_eq!(warned, !certificate.is_exact(), "{:?}", picture.warnings);
     assert_eq!(picture.order.summary.contains("proven for all"), certificate.is_exact());
 }
+
+/// Two cells that are convex together and not Delaunay.
+const NEEDS_HEIGHTS: &str = "# vtk DataFile Version 3.0\nmesh\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 5 double\n\
+    0 0 0 1 0 0 0 1 0 0 0 1 0.9 0.9 0.9\nCELLS 2 10\n4 0 1 2 3\n4 1 2 3 4\nCELL_TYPES 2\n10\n10\n\
+    POINT_DATA 5\nSCALARS s double 1\nLOOKUP_TABLE default\n0 1 2 3 4\n";
+
+#[test]
+fn heights_from_a_file_make_no_mesh_delaunay() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("mesh.vtk");
+    std::fs::write(&path, NEEDS_HEIGHTS).unwrap();
+    let mut scene = SceneFile::of_mesh(&path);
+    (scene.image.width, scene.image.height) = (8, 8);
+    scene.quality.keep_heights = Some(true);
+    let picture = render_scene(&scene, ".".as_ref(), &Silent).unwrap();
+    assert_eq!(picture.plan.order, OrderMethod::Power);
+
+    let volume = Volume::load(&path, None).unwrap();
+    for reads_heights in [false, true] {
+        let field = volume.field(None).unwrap();
+        let mut completed = scene.complete(&field.facts).unwrap();
+        completed.scene.threads = Some(2);
+        if reads_heights {
+            field.plan(&mut completed).unwrap();
+            let renderer = field.renderer().unwrap();
+            assert!(renderer.visibility().quick_certificate(renderer.cells()).is_exact(), "they were read");
+        }
+        let check = field.check_mesh(&volume.decomposition, false, Some(2)).unwrap();
+        assert_eq!((check.delaunay.faces, check.delaunay.violated), (1, 1));
+        assert_eq!(check.power.is_some_and(|power| power.is_exact_across_gaps()), reads_heights);
+    }
+}
+
+/// Threads of their own for the choice of an order give the same order and the same picture.
+#[test]
+fn the_number_of_threads_changes_nothing() {
+    let volume = Volume::from_dataset(rings_sample(4), "rings").unwrap();
+    let [one, three] = [1, 3].map(|threads| {
+        let field = volume.field(None).unwrap();
+        let mut completed = small_scene().complete(&field.facts).unwrap();
+        completed.scene.threads = Some(threads);
+        let plan = field.plan(&mut completed).unwrap();
+        let relations = field.relations(&plan).unwrap();
+        let exact = field.exact_picture(&plan, &Silent).unwrap();
+        let checked = field.check_order(&plan, plan.order, &relations, &exact, &Silent).unwrap();
+        (plan.order, checked.verdict, checked.pixels, field.render(&plan, &Silent).unwrap().image)
+    });
+    assert!(one == three);
+    assert!(crate::seen_pixels(&one.3) > 100);
+    assert_eq!(crate::seen_pixels(&crate::LinearImage::transparent(4, 4)), 0);
+}

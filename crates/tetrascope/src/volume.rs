@@ -13,6 +13,7 @@ use tetrascope_scene::{
 };
 
 use crate::Error;
+use crate::threads::on_threads;
 
 /// The path of the built-in sample: a name in place of a file, in scene files and on the command line.
 pub const SAMPLE: &str = "builtin:rings";
@@ -115,7 +116,7 @@ impl Volume {
             source_name: self.source_name.clone(),
             error: tetrascope_mesh::MeshError::NoCells { points: self.dataset.points.len() },
         })?;
-        Ok(VolumeField { field, on_mesh, facts, mesh_path: self.path.as_deref(), renderer: OnceLock::new() })
+        Ok(VolumeField { field, on_mesh, facts, mesh_path: self.path.as_deref(), made: OnceLock::new() })
     }
 }
 
@@ -131,7 +132,15 @@ pub struct VolumeField<'a> {
     /// What defaults are made from.
     pub facts: MeshFacts,
     pub(crate) mesh_path: Option<&'a Path>,
-    pub(crate) renderer: OnceLock<Arc<CpuRenderer>>,
+    pub(crate) made: OnceLock<Made>,
+}
+
+/// The fast renderer of a field.
+#[derive(Clone, Debug)]
+pub(crate) struct Made {
+    pub(crate) renderer: Arc<CpuRenderer>,
+    /// Whether it was given heights from a file.
+    pub(crate) has_read_heights: bool,
 }
 
 impl VolumeField<'_> {
@@ -146,7 +155,7 @@ impl VolumeField<'_> {
             }
             Backend::Cpu => {
                 let start = Instant::now();
-                let renderer = self.renderer()?;
+                let renderer = self.renderer_on(plan.threads)?;
                 let prepared = start.elapsed();
                 let mut rendered = renderer.render(plan, progress)?;
                 // Making the renderer is a part of preparing, unless it was there already.
@@ -164,11 +173,19 @@ impl VolumeField<'_> {
     /// # Errors
     /// [`Error::Render`].
     pub fn renderer(&self) -> Result<&CpuRenderer, Error> {
-        if let Some(renderer) = self.renderer.get() {
-            return Ok(renderer);
+        if let Some(made) = self.made.get() {
+            return Ok(&made.renderer);
         }
-        let made = Arc::new(CpuRenderer::new(self.on_mesh.mesh.as_ref(), &self.on_mesh.scalars)?);
-        Ok(self.renderer.get_or_init(|| made))
+        let renderer = Arc::new(CpuRenderer::new(self.on_mesh.mesh.as_ref(), &self.on_mesh.scalars)?);
+        Ok(&self.made.get_or_init(|| Made { renderer, has_read_heights: false }).renderer)
+    }
+
+    /// [`Self::renderer`], made on so many threads if it is not made yet.
+    pub(crate) fn renderer_on(&self, threads: Option<usize>) -> Result<&CpuRenderer, Error> {
+        match self.made.get() {
+            Some(made) => Ok(&made.renderer),
+            None => on_threads(threads, || self.renderer())?,
+        }
     }
 }
 

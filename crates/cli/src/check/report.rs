@@ -4,7 +4,8 @@ use std::path::Path;
 
 use serde_json::{Value, json};
 use tetrascope::{
-    Camera, MeshCheck, OrderCheck, PixelDifference, PowerCertificate, Projection, Relations, Verdict, Volume, short,
+    Camera, MeshCheck, OrderCheck, OrderMethod, PixelDifference, PowerCertificate, Projection, Relations, Verdict,
+    Volume, short,
 };
 
 fn row(subject: &str, text: &str) -> String {
@@ -19,8 +20,8 @@ pub(super) fn mesh(volume: &Volume, check: &MeshCheck) -> Vec<String> {
         row(
             "left out",
             &format!(
-                "{} tetrahedra without volume; {} turned round",
-                report.decomposition.no_volume, report.decomposition.inverted
+                "{} tetrahedra without volume, {} where the field is not finite; {} turned round",
+                report.decomposition.no_volume, check.left_out, report.decomposition.inverted
             ),
         ),
         row(
@@ -48,12 +49,14 @@ pub(super) fn mesh(volume: &Volume, check: &MeshCheck) -> Vec<String> {
 
 fn proven(certificate: &PowerCertificate) -> String {
     if certificate.is_exact() {
-        let gaps = match certificate.gaps {
-            Some(0) => " and across all gaps".to_owned(),
-            Some(open) => format!(", not across gaps ({open} boundary cells are open)"),
-            None => ", not looked at across gaps".to_owned(),
+        let faces = certificate.faces;
+        return match certificate.gaps {
+            Some(0) => format!("yes, proven for all {faces} faces between cells and across all gaps"),
+            Some(open) => format!(
+                "across faces, not across gaps: proven for all {faces} faces between cells; {open} boundary cells are open"
+            ),
+            None => format!("across faces: proven for all {faces} faces between cells; not looked at across gaps"),
         };
-        return format!("yes, proven for all {} faces between cells{gaps}", certificate.faces);
     }
     let PowerCertificate { faces, violated, folded, flat, imprecise, gaps: _ } = *certificate;
     let share = 100.0 * violated as f64 / faces.max(1) as f64;
@@ -68,7 +71,31 @@ fn proven(certificate: &PowerCertificate) -> String {
     text
 }
 
-pub(super) fn view(index: usize, camera: &Camera, relations: &Relations<'_>) -> Vec<String> {
+/// Pixels in which anything is seen from a view.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Seen {
+    pub(super) pixels: usize,
+    pub(super) all: usize,
+}
+
+/// What an order is called: with the number that it goes by, if it has one.
+fn name(method: OrderMethod) -> String {
+    match number_of(method) {
+        Some((_, number)) => format!("{method}, {number}"),
+        None => method.to_string(),
+    }
+}
+
+/// The number that an order goes by, under the name of its key.
+pub(super) fn number_of(method: OrderMethod) -> Option<(&'static str, u32)> {
+    match method {
+        OrderMethod::Bucket { slabs } => Some(("slabs", slabs)),
+        OrderMethod::KBuffer { window } => Some(("window", window)),
+        _ => None,
+    }
+}
+
+pub(super) fn view(index: usize, camera: &Camera, relations: &Relations<'_>, seen: Seen) -> Vec<String> {
     let place = |p: [f64; 3]| p.map(short).join(", ");
     let (from, to) = (place(camera.eye.to_array()), place(camera.target.to_array()));
     let projection = match camera.projection {
@@ -83,12 +110,18 @@ pub(super) fn view(index: usize, camera: &Camera, relations: &Relations<'_>) -> 
         let cells: usize = rings.iter().map(Vec::len).sum();
         format!("yes: {cells} tetrahedra hide one another in {} ring{plural}", rings.len())
     };
+    let seen = if seen.pixels == 0 {
+        format!("in no pixel of {}: the pixels below tell nothing", seen.all)
+    } else {
+        format!("in {} of {} pixels", seen.pixels, seen.all)
+    };
     vec![
         String::new(),
         row(&format!("view {}", index + 1), &format!("from ({from}) to ({to}), {projection}")),
+        row("seen", &seen),
         row("cyclic", &cyclic),
         format!(
-            "{:<12}{:>11} {:>11} {:>10} {:>10} {:>9} {:>9} {:>9} {:>10}",
+            "{:<14}{:>9} {:>11} {:>10} {:>10} {:>9} {:>9} {:>9} {:>10}",
             "order", "neighbors", "across gaps", "in rings", "order ms", "draw ms", "> 1e-5", "> 1/255", "largest"
         ),
     ]
@@ -101,8 +134,8 @@ pub(super) fn order(check: &OrderCheck) -> String {
     let gaps = format!("{}{}", pairs(|v| v.misordered_gaps), if is_partial { "+" } else { "" });
     let milliseconds = |time: std::time::Duration| format!("{:.2}", time.as_secs_f64() * 1e3);
     format!(
-        "{:<12}{:>11} {:>11} {:>10} {:>10} {:>9} {:>9} {:>9} {:>10.2e}",
-        check.method.to_string(),
+        "{:<14}{:>9} {:>11} {:>10} {:>10} {:>9} {:>9} {:>9} {:>10.2e}",
+        name(check.method),
         pairs(|v| v.misordered_faces),
         gaps,
         pairs(|v| v.misordered_in_rings),
@@ -120,6 +153,7 @@ pub(super) fn mesh_json(volume: &Volume, check: &MeshCheck) -> Value {
         "mesh": { "path": volume.source_name, "format": volume.format, "points": report.points,
             "tetrahedra": report.tetrahedra },
         "without_volume": report.decomposition.no_volume,
+        "field_not_finite": check.left_out,
         "inverted": report.decomposition.inverted,
         "faces": { "all": check.faces, "boundary": report.boundary_faces, "non_manifold": report.non_manifold_faces,
             "folded": report.folded_faces },
@@ -133,11 +167,11 @@ pub(super) fn mesh_json(volume: &Volume, check: &MeshCheck) -> Value {
 }
 
 fn certificate_json(certificate: &PowerCertificate) -> Value {
-    json!({ "proven": certificate.is_exact(), "faces": certificate.faces, "violated": certificate.violated,
+    json!({ "proven": certificate.is_exact(), "proven_across_gaps": certificate.is_exact_across_gaps(), "faces": certificate.faces, "violated": certificate.violated,
         "folded": certificate.folded, "flat": certificate.flat, "imprecise": certificate.imprecise, "open_across_gaps": certificate.gaps })
 }
 
-pub(super) fn view_json(camera: &Camera, relations: &Relations<'_>, orders: Vec<Value>) -> Value {
+pub(super) fn view_json(camera: &Camera, relations: &Relations<'_>, seen: Seen, orders: Vec<Value>) -> Value {
     let rings = relations.rings();
     let projection = match camera.projection {
         Projection::Perspective { .. } => "perspective",
@@ -146,6 +180,7 @@ pub(super) fn view_json(camera: &Camera, relations: &Relations<'_>, orders: Vec<
     json!({
         "camera": { "eye": camera.eye.to_array(), "target": camera.target.to_array(), "up": camera.up.to_array(),
             "projection": projection },
+        "pixels_seen": seen.pixels,
         "cyclic": !rings.is_empty(),
         "rings": rings.len(),
         "cells_in_rings": rings.iter().map(Vec::len).sum::<usize>(),
@@ -163,7 +198,7 @@ pub(super) fn order_json(check: &OrderCheck, map: Option<&Path>) -> Value {
         })
     });
     let largest = check.pixels.largest();
-    json!({
+    let mut said = json!({
         "order": check.method.to_string(),
         "pairs": pairs,
         "order_secs": check.sorted_in.as_secs_f64(),
@@ -173,5 +208,9 @@ pub(super) fn order_json(check: &OrderCheck, map: Option<&Path>) -> Value {
             // JSON has no infinity.
             "largest": largest.is_finite().then_some(largest) },
         "map": map.map(|path| path.display().to_string()),
-    })
+    });
+    if let (Value::Object(said), Some((key, number))) = (&mut said, number_of(check.method)) {
+        said.insert(key.to_owned(), json!(number));
+    }
+    said
 }

@@ -3,8 +3,8 @@
 use std::{io, path::Path};
 
 use exr::prelude::{
-    Compression, Encoding, Image, Layer, LayerAttributes, MetaData, ReadChannels, ReadLayers, RgbaChannels,
-    SpecificChannels, Vec2, WritableImage, read,
+    Blocks, Compression, Encoding, Image, Layer, LayerAttributes, LineOrder, MetaData, ReadChannels, ReadLayers,
+    RgbaChannels, SpecificChannels, Vec2, WritableImage, read,
 };
 use tetrascope_view::LinearImage;
 
@@ -19,7 +19,8 @@ const PIXELS_PER_BYTE: u64 = 1024;
 const PIXELS_ALWAYS_READ: u64 = 1 << 22;
 
 /// Writes a picture as OpenEXR: channels R, G, B, A, 32-bit float, linear, premultiplied, with no background; ZIP
-/// compression, which loses nothing. NaN and infinities are written as they are.
+/// compression, which loses nothing. NaN and infinities are written as they are. The same picture gives the same bytes, whatever the
+/// number of threads.
 ///
 /// The file appears whole or not at all.
 ///
@@ -36,7 +37,10 @@ fn encode(image: &LinearImage) -> exr::error::Result<Vec<u8>> {
         let [r, g, b, a] = image.pixels()[at.y() * image.width() as usize + at.x()];
         (r, g, b, a)
     };
-    let encoding = Encoding { compression: Compression::ZIP16, ..Encoding::FAST_LOSSLESS };
+    // Blocks are compressed on all cores. In increasing order of lines they are written in that order, not as they are done, so that
+    // one picture always gives the same bytes.
+    let encoding =
+        Encoding { compression: Compression::ZIP16, blocks: Blocks::ScanLines, line_order: LineOrder::Increasing };
     let size = (image.width() as usize, image.height() as usize);
     // A layer without a name: its channels are then called R, G, B, A, which all programs look for.
     let layer = Layer::new(size, LayerAttributes::default(), encoding, SpecificChannels::rgba(pixel));

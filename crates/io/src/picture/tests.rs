@@ -51,6 +51,28 @@ impl MetaDataOf {
     }
 }
 
+/// Rows of noise take longer to compress than rows of one color, so that blocks are done in another order than they are begun in.
+#[test]
+fn exr_of_one_picture_is_always_the_same_bytes() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("picture.exr");
+    let mut image = LinearImage::transparent(700, 640);
+    let mut state = 1_u32;
+    for (index, pixel) in image.pixels_mut().iter_mut().enumerate() {
+        state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+        let is_noise = (index / 700 / 16) % 3 == 0;
+        *pixel = if is_noise { [state as f32, (state >> 8) as f32, (state >> 16) as f32, 1.0] } else { [0.5; 4] };
+    }
+    write_exr(&path, &image).unwrap();
+    let once = fs::read(&path).unwrap();
+    for _ in 0..12 {
+        write_exr(&path, &image).unwrap();
+        assert!(fs::read(&path).unwrap() == once);
+    }
+    let meta = exr::prelude::MetaData::read_from_file(&path, true).unwrap();
+    assert_eq!(meta.headers[0].line_order, exr::prelude::LineOrder::Increasing);
+}
+
 #[test]
 fn exr_of_half_floats_without_alpha() {
     use exr::prelude::{WritableImage, f16};

@@ -32,28 +32,52 @@ pub(super) fn fill_order(section: &mut QualitySection, warnings: &mut Vec<String
     })
 }
 
-/// What is done about rings, and whether heights are kept, for an order that was decided; `is_auto` if nobody asked for it.
-pub(super) fn fill_cycles(
+/// What is done about rings, and whether heights are kept, for an order that was decided.
+pub(super) fn fill_cycles(section: &mut QualitySection, order: OrderMethod, warnings: &mut Vec<String>) -> CycleRemedy {
+    drop_what_the_order_has_not(section, order, warnings);
+    if !finds_rings(order) {
+        return CycleRemedy::Report;
+    }
+    *section.cycles.get_or_insert(CycleRemedy::PerPixel)
+}
+
+/// Takes away what an order has no use for, with a warning where it was there.
+pub(super) fn drop_what_the_order_has_not(
     section: &mut QualitySection,
     order: OrderMethod,
-    is_auto: bool,
     warnings: &mut Vec<String>,
-) -> CycleRemedy {
-    // The order that the mesh itself will be given may be "power".
-    let may_be_power = order == OrderMethod::Power || is_auto && order != OrderMethod::None;
-    if !may_be_power {
+) {
+    if !may_have_heights(order) {
         drop_key(&mut section.keep_heights, "keep_heights", &format!("the order {order} has no heights"), warnings);
     }
-    if finds_rings(order) {
-        return *section.cycles.get_or_insert(CycleRemedy::PerPixel);
+    if !finds_rings(order) {
+        drop_key(&mut section.cycles, "cycles", &format!("the order {order} looks for no rings"), warnings);
     }
-    drop_key(&mut section.cycles, "cycles", &format!("the order {order} looks for no rings"), warnings);
-    CycleRemedy::Report
 }
 
 /// Whether an order says which cells hide one another in rings.
-pub(crate) fn finds_rings(order: OrderMethod) -> bool {
+pub(super) fn finds_rings(order: OrderMethod) -> bool {
     matches!(order, OrderMethod::Mpvo | OrderMethod::BspXmpvo)
+}
+
+/// Whether heights are looked for with this order, or were with the `"auto"` that took it: a scene written then keeps saying that
+/// they are to be kept.
+fn may_have_heights(order: OrderMethod) -> bool {
+    matches!(order, OrderMethod::Power | OrderMethod::Mpvo | OrderMethod::BspXmpvo | OrderMethod::PerPixel)
+}
+
+impl QualitySection {
+    /// Gives another order, and forgets without a word what belonged to the one before and has no effect with this one.
+    pub fn replace_order(&mut self, order: Choice<OrderMethod>) {
+        if order == self.order {
+            return;
+        }
+        self.order = order;
+        (self.slabs, self.window) = (None, None);
+        if let Choice::Named(order) = order {
+            drop_what_the_order_has_not(self, order, &mut Vec::new());
+        }
+    }
 }
 
 /// The table's sizes for this integration; `None` if it has no table.

@@ -1,12 +1,13 @@
 //! In which order cells are blended, and what is done where no order is right.
 
+use tetrascope_integrate::Integration;
 use tetrascope_order::{CycleRemedy, OrderMethod};
 
 use super::Scene;
 use crate::{Backend, Decision, SceneError};
 
 impl Scene {
-    /// Whether the picture is the same whatever is blended first: a surface hides what is behind it in every optical model.
+    /// [`Plan::commutes`](crate::Plan::commutes) of the plan that this scene leads to.
     pub fn commutes(&self) -> bool {
         self.model.is_commutative() && self.isosurfaces.iter().all(|surface| surface.opacity <= 0.0)
     }
@@ -19,6 +20,21 @@ impl Scene {
             // Right on any mesh; on a convex one it costs what mpvo does.
             None => OrderMethod::BspXmpvo,
         }
+    }
+
+    /// Refuses a remedy for rings that the integration does not allow.
+    pub(super) fn check_cycles(&self, integration: Integration) -> Result<(), SceneError> {
+        if self.cycles == CycleRemedy::Cut && integration.needs_fan() {
+            return Err(SceneError::Conflict {
+                key: "quality.cycles",
+                value: self.cycles.to_string(),
+                problem: format!(
+                    "leaves pieces of cells, and quality.integration = \"{integration}\" paints triangles, which a piece does not have"
+                ),
+                remedy: "use quality.cycles = \"per-pixel\" or another integration, such as \"exact\"",
+            });
+        }
+        Ok(())
     }
 
     pub(super) fn decide_order(&self, decisions: &mut Vec<Decision>) -> Result<OrderMethod, SceneError> {
@@ -53,7 +69,7 @@ impl Scene {
         if matches!(order, OrderMethod::Mpvo | OrderMethod::BspXmpvo) {
             let reason = match self.cycles {
                 CycleRemedy::Report => "cells in rings are blended by the distance of their centers",
-                CycleRemedy::Cut => "cells in rings are cut until none hides another in a ring",
+                CycleRemedy::Cut => "cells in rings are cut, where they can be, until none hides another in a ring",
                 CycleRemedy::PerPixel => {
                     "where cells hide one another in rings every pixel sorts them; elsewhere it costs nothing"
                 }
