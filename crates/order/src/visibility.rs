@@ -6,6 +6,7 @@ use tetrascope_mesh::{CellId, FaceAdjacency};
 
 use crate::convex::is_convex;
 use crate::overlaps::{folded_pairs, overlaps};
+use crate::power::may_be_delaunay;
 use crate::sides::FaceSides;
 use crate::{
     BspTree, BspXmpvo, Bucket, Budget, Cells, Centroid, Heights, Mpvo, OrderMethod, Overlaps, Power, PowerCertificate,
@@ -75,6 +76,11 @@ impl MeshVisibility {
         *self.overlaps.get_or_init(|| overlaps(cells, self.adjacency(cells), self.folded(cells).len()))
     }
 
+    /// The same if it was looked for already; an order that depends on it has.
+    pub fn known_overlaps(&self) -> Option<Overlaps> {
+        self.overlaps.get().copied()
+    }
+
     /// Pairs of cells that lie on one side of a face which both have.
     pub(crate) fn folded(&self, cells: Cells<'_>) -> &Arc<[(CellId, CellId)]> {
         self.folded.get_or_init(|| folded_pairs(cells, self.adjacency(cells)).into())
@@ -126,8 +132,12 @@ impl MeshVisibility {
     ///
     /// No heights are looked for: that takes longer than many frames. Those given count, and those that [`Self::power`] has found.
     pub fn choose(&self, cells: Cells<'_>) -> OrderChoice {
-        let known = self.power.get().unwrap_or_else(|| self.quick_power(cells));
-        if known.certificate().is_exact_across_gaps() {
+        let known = self.power.get().or_else(|| self.quick.get()).or_else(|| {
+            // Its keys need not be made where one face speaks against it.
+            let may_be = self.heights.get().is_some() || may_be_delaunay(cells, self.adjacency(cells));
+            may_be.then(|| self.quick_power(cells))
+        });
+        if known.is_some_and(|power| power.certificate().is_exact_across_gaps()) {
             let reason = if self.is_convex(cells) {
                 "one key a cell is proven to be exact"
             } else {

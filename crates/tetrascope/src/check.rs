@@ -4,7 +4,7 @@ use std::borrow::Cow;
 use std::time::{Duration, Instant};
 
 use tetrascope_mesh::{CellId, Decomposition, FaceAdjacency, MeshReport, check};
-use tetrascope_order::{Budget, OrderMethod, Power, PowerCertificate, Relations, Verdict};
+use tetrascope_order::{Budget, OrderMethod, Overlaps, Power, PowerCertificate, Relations, Verdict};
 use tetrascope_scene::{Backend, Plan, Progress};
 use tetrascope_view::LinearImage;
 
@@ -22,6 +22,8 @@ pub struct MeshCheck {
     pub faces: usize,
     /// Whether no ray leaves the mesh and enters it again.
     pub is_convex: bool,
+    /// Where tetrahedra overlap.
+    pub overlaps: Overlaps,
     /// What is proven of the heights `|p|²`, whatever other heights are known: whether the mesh is Delaunay.
     pub delaunay: PowerCertificate,
     /// What is proven of the best heights known; `None` where none were looked for.
@@ -134,7 +136,8 @@ impl VolumeField<'_> {
         };
         let power =
             if known.is_exact() { Some(known) } else { with_heights.then(|| visibility.power(cells).certificate()) };
-        Ok(MeshCheck { report, left_out: self.on_mesh.left_out, faces, is_convex, delaunay, power })
+        let overlaps = visibility.overlaps(cells);
+        Ok(MeshCheck { report, left_out: self.on_mesh.left_out, faces, is_convex, overlaps, delaunay, power })
     }
 
     /// What is odd about the mesh that is drawn.

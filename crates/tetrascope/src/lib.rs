@@ -57,7 +57,7 @@ pub use tetrascope_mesh::{
     UnstructuredCells, chord_lengths, decompose, vertex_gradients,
 };
 pub use tetrascope_order::{
-    CycleRemedy, Guarantee, MeshVisibility, OrderChoice, OrderMethod, PowerCertificate, Relations, Verdict,
+    CycleRemedy, Guarantee, MeshVisibility, OrderChoice, OrderMethod, Overlaps, PowerCertificate, Relations, Verdict,
 };
 pub use tetrascope_scene::{
     ArraySummary, Association, Backend, CameraSection, Choice, Completed, Decision, Field, FieldError, FieldOnMesh,

@@ -1,7 +1,7 @@
 //! Which order a mesh is given, and what it was worth in a picture.
 
 use tetrascope_cpu::Rendered;
-use tetrascope_order::{CycleRemedy, Guarantee, OrderMethod, PowerCertificate};
+use tetrascope_order::{CycleRemedy, Guarantee, OrderMethod, Overlaps, PowerCertificate};
 use tetrascope_scene::{Backend, Completed, Plan, short};
 
 use crate::threads::on_threads;
@@ -97,15 +97,38 @@ impl VolumeField<'_> {
             _ => match rendered.order.guarantee {
                 Guarantee::Exact if visibility.is_convex(cells) => "exact: the mesh is convex".to_owned(),
                 Guarantee::Exact => "exact, across gaps of the mesh too".to_owned(),
+                Guarantee::Overlapping => "exact but where tetrahedra overlap".to_owned(),
                 Guarantee::Faces => format!("exact for neighbors{across_gaps}"),
                 _ => "not guaranteed: by one point of a cell, so that neighbors may come in the wrong order".to_owned(),
             },
         };
+        if let Some(overlaps) = visibility.known_overlaps().filter(Overlaps::any) {
+            worth.warnings.push(overlapping(&overlaps));
+        }
         if rendered.order.rings > 0 {
             worth.rings = Some(rings(plan.cycles, rendered));
         }
         Ok(worth)
     }
+}
+
+fn overlapping(overlaps: &Overlaps) -> String {
+    let Overlaps { folded, piercing, contained, is_complete } = *overlaps;
+    let mut found = Vec::new();
+    for (count, what) in [
+        (folded, "pairs of tetrahedra lie on one side of a face that both have"),
+        (piercing, "pairs of boundary faces pass through each other"),
+        (contained, "parts of the mesh lie inside others"),
+    ] {
+        if count > 0 {
+            found.push(format!("{count} {what}"));
+        }
+    }
+    let more = if is_complete { "" } else { ", and not everything was looked at" };
+    format!(
+        "the mesh overlaps itself: {}{more}. A ray is in two tetrahedra at once there, and no picture is right; mend the mesh",
+        found.join(", ")
+    )
 }
 
 fn unproven(certificate: &PowerCertificate) -> String {
@@ -122,13 +145,18 @@ fn unproven(certificate: &PowerCertificate) -> String {
 fn rings(remedy: CycleRemedy, rendered: &Rendered) -> String {
     let (cells, rings) = (rendered.counts.cyclic, rendered.order.rings);
     let plural = if rings == 1 { "" } else { "s" };
-    let done = match remedy {
-        CycleRemedy::Report => {
+    let done = match (remedy, rendered.order.rings_left) {
+        (CycleRemedy::Report, _) => {
             "they are blended by the distance of their centers, which may be wrong there; cycles \"per-pixel\" is right, and so is \
              \"cut\" for those that can be cut"
+                .to_owned()
         }
-        CycleRemedy::Cut => "those of them that are drawn are cut, where they can be, so that an order is right",
-        CycleRemedy::PerPixel => "the pixels that they cover are sorted ray by ray",
+        (CycleRemedy::Cut, 0) => "those of them that are drawn are cut so that an order is right".to_owned(),
+        (CycleRemedy::Cut, left) => format!(
+            "those of them that are drawn are cut so that an order is right, but for {left} rings whose tetrahedra overlap or are \
+             too many: the pixels that these cover are sorted ray by ray"
+        ),
+        (CycleRemedy::PerPixel, _) => "the pixels that they cover are sorted ray by ray".to_owned(),
     };
     format!(
         "{cells} tetrahedra hide one another in {rings} ring{plural}, where no order of whole cells is right; {done}"

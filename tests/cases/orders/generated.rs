@@ -3,7 +3,7 @@
 use glam::DVec3;
 use proptest::prelude::*;
 use tetrascope::mesh::CellId;
-use tetrascope::order::{Cells, Guarantee, MeshVisibility, Order, OrderMethod};
+use tetrascope::order::{Cells, Guarantee, MeshVisibility, OrderMethod};
 use tetrascope::view::Viewpoint;
 use tetrascope_tests::meshes::Random;
 use tetrascope_tests::shapes::{self, Shape};

@@ -4,8 +4,8 @@ use std::path::Path;
 
 use serde_json::{Value, json};
 use tetrascope::{
-    Camera, MeshCheck, OrderCheck, OrderMethod, PixelDifference, PowerCertificate, Projection, Relations, Verdict,
-    Volume, short,
+    Camera, MeshCheck, OrderCheck, OrderMethod, Overlaps, PixelDifference, PowerCertificate, Projection, Relations,
+    Verdict, Volume, short,
 };
 
 fn row(subject: &str, text: &str) -> String {
@@ -34,6 +34,7 @@ pub(super) fn mesh(volume: &Volume, check: &MeshCheck) -> Vec<String> {
         row("duplicates", &report.duplicate_tetrahedra.to_string()),
         row("parts", &report.connected_parts.to_string()),
         row("convex", if check.is_convex { "yes" } else { "no: rays may leave the mesh and enter it again" }),
+        row("overlaps", &overlapping(&check.overlaps)),
         row("Delaunay", &proven(&check.delaunay)),
     ];
     let one_key = match &check.power {
@@ -45,6 +46,18 @@ pub(super) fn mesh(volume: &Volume, check: &MeshCheck) -> Vec<String> {
         lines.push(row(if index == 0 { "findings" } else { "" }, finding));
     }
     lines
+}
+
+fn overlapping(overlaps: &Overlaps) -> String {
+    let Overlaps { folded, piercing, contained, is_complete } = *overlaps;
+    let more = if is_complete { "" } else { "; not everything was looked at" };
+    if !overlaps.any() {
+        return format!("none found{more}");
+    }
+    format!(
+        "{folded} pairs of tetrahedra on one side of a face of both, {piercing} pairs of boundary faces through each other, \
+         {contained} parts inside others{more}"
+    )
 }
 
 fn proven(certificate: &PowerCertificate) -> String {
@@ -161,6 +174,8 @@ pub(super) fn mesh_json(volume: &Volume, check: &MeshCheck) -> Value {
         "connected_parts": report.connected_parts,
         "findings": report.findings(),
         "convex": check.is_convex,
+        "overlaps": { "folded": check.overlaps.folded, "piercing": check.overlaps.piercing,
+            "contained": check.overlaps.contained, "complete": check.overlaps.is_complete },
         "delaunay": certificate_json(&check.delaunay),
         "one_key": check.power.as_ref().map(certificate_json),
     })

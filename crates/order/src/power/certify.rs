@@ -81,6 +81,18 @@ pub(super) fn certify(cells: Cells<'_>, adjacency: &FaceAdjacency, heights: &[f6
         .reduce(PowerCertificate::default, PowerCertificate::and)
 }
 
+/// Whether some face is not provably convex under the heights: [`certify`] that ends at the first.
+pub(super) fn is_any_violated(cells: Cells<'_>, adjacency: &FaceAdjacency, heights: &[f64]) -> bool {
+    face_pairs(cells, adjacency).any(|mut pairs| {
+        pairs.any(|points| {
+            let positions = points.map(|p| cells.positions[p.index()]);
+            let [a, b, c, _, far] = positions.map(coord);
+            let far = orient3d(a, b, c, far);
+            !is_convex(positions, points.map(|p| heights[p.index()]), far > 0.0)
+        })
+    })
+}
+
 pub(super) fn coord(p: DVec3) -> Coord3D<f64> {
     Coord3D { x: p.x, y: p.y, z: p.z }
 }
