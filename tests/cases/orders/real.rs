@@ -45,7 +45,7 @@ fn load(data: &Path, mesh: &str) -> Volume {
     Volume::load(&data.join(mesh), solution.as_deref()).unwrap()
 }
 
-/// Zero pairs out of order but within rings.
+/// Zero pairs out of order but within rings. Rays judge nobody where cells overlap: the order of what they meet is no fact there.
 #[test]
 fn real_meshes_come_in_order_from_a_hundred_views() {
     let Some(folder) = shared::folder("orders of real meshes") else { return };
@@ -95,6 +95,8 @@ fn check(case: &Case, cells: Cells<'_>) {
             if promise(*method) != Guarantee::Faces {
                 assert_eq!(verdict.misordered_gaps, 0, "{}: {verdict:?}", place());
                 assert_eq!(order.cycles, relations.rings(), "{}", place());
+            }
+            if promise(*method) == Guarantee::Exact {
                 let found: Found = judge_by_rays(cells, size, viewpoint, &order, RAYS, &mut random);
                 assert_eq!(found.wrong, 0, "{}: {found:?}", place());
                 along_rays += found.pairs;
@@ -106,6 +108,6 @@ fn check(case: &Case, cells: Cells<'_>) {
         case.mesh,
         cyclic / views.len()
     );
-    assert!(along_rays > 1000, "{}: {along_rays} pairs along rays only", case.mesh);
+    assert!(case.overlaps || along_rays > 1000, "{}: {along_rays} pairs along rays only", case.mesh);
     assert!(cyclic == 0 || case.overlaps, "{}: rings where nothing overlaps", case.mesh);
 }
