@@ -95,3 +95,36 @@ fn rings_of_real_files_are_found_and_mended() {
         }
     }
 }
+
+/// Cells that overlap cannot be cut into an order: they are reported, and their pixels are sorted.
+#[test]
+fn rings_that_cannot_be_cut_are_left_to_the_pixels() {
+    // The tip of the second cell lies inside the first.
+    let points = [DVec3::ZERO, DVec3::X, DVec3::Y, DVec3::Z, DVec3::splat(0.1)];
+    let mesh = TetMesh::from_tetrahedra(&points, &[[0, 1, 2, 3], [1, 2, 3, 4]]).unwrap().mesh;
+    let volume = CpuRenderer::new(&mesh, &[0.0, 1.0, 0.3, 0.6, 0.9]).unwrap();
+    let camera = Camera {
+        eye: DVec3::new(3.0, 2.0, 4.0),
+        target: DVec3::splat(0.25),
+        up: DVec3::Y,
+        projection: Projection::Perspective { fov_y: 0.3 },
+    };
+    let color = [[0.0, 0.9, 0.1, 0.1], [0.5, 0.1, 0.8, 0.3], [1.0, 0.1, 0.2, 0.9]];
+    let transfer = TransferFunction::new(&color, &[[0.0, 4.0], [1.0, 1.0]]).unwrap();
+    let plan = Plan::new(View::new(&camera, 64, 64).unwrap(), transfer, OpticalModel::DensityEmitter);
+    let draw = |order, cycles| volume.render(&Plan { order, cycles, ..plan.clone() }, &Silent).unwrap();
+    let sorted = draw(OrderMethod::PerPixel, CycleRemedy::Report);
+    for order in [OrderMethod::Mpvo, OrderMethod::BspXmpvo] {
+        for (cycles, left) in [(CycleRemedy::Report, 1), (CycleRemedy::Cut, 1), (CycleRemedy::PerPixel, 1)] {
+            let drawn = draw(order, cycles);
+            assert_eq!(
+                (drawn.counts.cyclic, drawn.order.rings, drawn.order.rings_left),
+                (2, 1, left),
+                "{order}, {cycles}"
+            );
+            assert_eq!(drawn.counts.sorted > 0, cycles != CycleRemedy::Report, "{order}, {cycles}");
+            let found = difference(&drawn.image, &sorted.image, 1e-6, &[]);
+            assert!(cycles == CycleRemedy::Report || found.beyond == 0, "{order}, {cycles}: {found:?}");
+        }
+    }
+}
