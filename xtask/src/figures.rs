@@ -68,6 +68,7 @@ const FIGURES: &[Figure] = &[
     Figure { name: "combustor", work: Work::Scene },
     Figure { name: "post", work: Work::Scene },
     Figure { name: "neghip", work: Work::Scene },
+    Figure { name: "ring", work: Work::Row(&["ring-report", "ring-cut"]) },
 ];
 
 /// Draws the figures. Those whose data is absent are named, and no error.
