@@ -266,7 +266,8 @@ proptest! {
         let after = exact(&TransferFunction::new(&moved, &extinction).unwrap(), model, &here);
         // The light of a color of one, from the constant channel.
         let of_one = before.rgb[2] / 0.7;
-        prop_assert_eq!(after.opacity, before.opacity);
+        // A constant color has fewer pieces to add up.
+        prop_assert!((after.opacity - before.opacity).abs() <= 1e-14 * before.opacity, "{after:?} {before:?}");
         let expected = factor * before.rgb[0] + offset * of_one;
         prop_assert!((after.rgb[0] - expected).abs() <= 1e-13 * (3.0 * of_one + 2.0 * of_one), "{} {}", after.rgb[0], expected);
     }

@@ -174,6 +174,8 @@ mod cycles_tests;
 #[cfg(test)]
 mod mpvo_tests;
 #[cfg(test)]
+mod overlaps_tests;
+#[cfg(test)]
 mod radix_tests;
 #[cfg(test)]
 mod repair_tests;
