@@ -4,7 +4,7 @@ use rayon::prelude::*;
 use tetrascope_mesh::{CellFace, CellId, FaceAdjacency, VertexId};
 
 use crate::Cells;
-use crate::bsp::side_of;
+use crate::signs::side_of;
 
 /// A boundary face's points, and the corner of its cell that is not one of them.
 pub(crate) fn points_of(cells: Cells<'_>, face: CellFace) -> ([VertexId; 3], VertexId) {

@@ -47,6 +47,7 @@ mod radix;
 mod remedy;
 mod repair;
 mod sides;
+mod signs;
 mod steps;
 mod sweep;
 mod unordered;

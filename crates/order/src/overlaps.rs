@@ -5,8 +5,8 @@ use rayon::prelude::*;
 use tetrascope_mesh::{CellFace, CellId, FaceAdjacency, VertexId};
 
 use crate::Cells;
-use crate::bsp::side_of;
 use crate::convex::points_of;
+use crate::signs::side_of;
 
 /// Where cells of a mesh overlap. A ray that is in two cells at once has no order for them, whoever sorts; sorting along every ray
 /// by the middles of segments is at least the same from one picture to the next.

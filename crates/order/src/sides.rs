@@ -4,12 +4,12 @@ use std::sync::atomic::{AtomicBool, Ordering};
 
 use glam::DVec3;
 use rayon::prelude::*;
-use robust::Coord3D;
 use tetrascope_mesh::{CellId, FaceAdjacency, VertexId};
 use tetrascope_view::Viewpoint;
 
 use crate::Cells;
 use crate::planes::{Glance, Planes};
+use crate::signs::{eye_side, side_of};
 
 /// For every cell, which of its faces it shares with a cell on the other side, and on which side of them it lies.
 ///
@@ -42,7 +42,7 @@ impl FaceSides {
         let side = |cell: usize, corner: usize| {
             let tetrahedron = cells.tetrahedra[cell];
             let apex = cells.positions[tetrahedron[corner].index()];
-            orientation(face(cells, tetrahedron, corner), apex)
+            is_positive(side_of(face(cells, tetrahedron, corner), apex))
         };
         let sides: Vec<u8> = (0..cells.tetrahedra.len())
             .into_par_iter()
@@ -118,7 +118,7 @@ impl FaceSides {
                 continue;
             }
             // The cell on the eye's side of the face is the nearer one; seen edge-on, neither.
-            match eye_side(face(cells, cells.tetrahedra[cell], corner), viewpoint) {
+            match is_positive(eye_side(face(cells, cells.tetrahedra[cell], corner), viewpoint)) {
                 Some(eye_is_positive) if eye_is_positive != (bits >> corner & 1 == 1) => relation.front |= 1 << corner,
                 Some(_) => relation.behind |= 1 << corner,
                 None => {}
@@ -164,56 +164,10 @@ fn face(cells: Cells<'_>, tetrahedron: [VertexId; 4], corner: usize) -> [DVec3; 
     face_ids(tetrahedron, corner).map(|v| cells.positions[v.index()])
 }
 
-/// Whether a point lies on the positive side of three others' plane; `None` on it. Exact.
+/// A side as [`signs`](crate::signs) counts it: whether it is the positive one; `None` on the plane.
 #[inline]
-fn orientation(face @ [p, q, r]: [DVec3; 3], point: DVec3) -> Option<bool> {
-    // Shewchuk's filter, here so that it is inlined: nearly all signs are settled by it.
-    let [a, b, c] = face.map(|corner| corner - point);
-    let (bc, ca, ab) = (b.x * c.y, c.x * a.y, a.x * b.y);
-    let (cb, ac, ba) = (c.x * b.y, a.x * c.y, b.x * a.y);
-    let determinant = a.z * (bc - cb) + b.z * (ca - ac) + c.z * (ab - ba);
-    let permanent =
-        a.z.abs() * (bc.abs() + cb.abs()) + b.z.abs() * (ca.abs() + ac.abs()) + c.z.abs() * (ab.abs() + ba.abs());
-    if determinant.abs() > 7.8e-16 * permanent && permanent > 1e-250 {
-        return Some(determinant > 0.0);
-    }
-    exact_orientation([p, q, r], point)
-}
-
-#[cold]
-fn exact_orientation([p, q, r]: [DVec3; 3], point: DVec3) -> Option<bool> {
-    let determinant = robust::orient3d(coord(p), coord(q), coord(r), coord(point));
-    (determinant != 0.0).then_some(determinant > 0.0)
-}
-
-/// Whether the eye lies on the positive side of a face's plane; `None` where the face is seen edge-on.
-///
-/// Exact from a point. Along a direction, a face that is edge-on to within the rounding of the determinant counts as edge-on:
-/// nothing wider than that rounding is seen of one of its cells behind the other.
-#[inline]
-fn eye_side(face: [DVec3; 3], viewpoint: Viewpoint) -> Option<bool> {
-    match viewpoint {
-        Viewpoint::Eye(eye) => orientation(face, eye),
-        Viewpoint::Direction(direction) => {
-            let [p, q, r] = face;
-            let (u, v) = (q - p, r - p);
-            let normal = u.cross(v);
-            let determinant = normal.dot(direction);
-            let magnitude = DVec3::new(
-                (u.y * v.z).abs() + (u.z * v.y).abs(),
-                (u.z * v.x).abs() + (u.x * v.z).abs(),
-                (u.x * v.y).abs() + (u.y * v.x).abs(),
-            )
-            .dot(direction.abs());
-            // Shewchuk's bound for orient3d. The eye lies infinitely far against the direction; a point far against the normal is on
-            // the positive side of `robust::orient3d`.
-            (determinant.abs() > 8e-16 * magnitude).then_some(determinant > 0.0)
-        }
-    }
-}
-
-fn coord(p: DVec3) -> Coord3D<f64> {
-    Coord3D { x: p.x, y: p.y, z: p.z }
+fn is_positive(side: i8) -> Option<bool> {
+    (side != 0).then_some(side > 0)
 }
 
 /// Of which cells a set of corner bits speaks.

@@ -73,6 +73,9 @@ impl VolumeField<'_> {
         let (cells, visibility) = (renderer.cells(), renderer.visibility());
         let across_gaps = "; the mesh is not convex, and across its gaps the order is a guess";
         worth.summary = match plan.order {
+            OrderMethod::PerPixel if visibility.known_overlaps().is_some_and(|overlaps| overlaps.any()) => {
+                "sorted in every pixel, exact but where tetrahedra overlap".to_owned()
+            }
             OrderMethod::PerPixel => "exact: sorted in every pixel".to_owned(),
             OrderMethod::KBuffer { window } => {
                 format!("not guaranteed: by centers, mended in every pixel within {window} cells")

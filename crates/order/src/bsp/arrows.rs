@@ -6,10 +6,10 @@ use tetrascope_view::Viewpoint;
 
 use super::flat::{Flat, overlap_surely};
 use super::overlap::{Seen, is_before, overlap};
-use super::signs::eye_side;
 use super::split::Plane;
 use super::tiles::{Rectangle, Sheets, Tiles};
 use super::{BoundaryFragment, BspTree};
+use crate::signs::eye_side;
 
 /// What became of the arrows of one view.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

@@ -6,8 +6,8 @@ use tetrascope_view::Viewpoint;
 
 use super::flat::{Flat, overlap_surely};
 use super::overlap::{Seen, overlap};
-use super::signs::eye_side;
 use super::tiles::Sheets;
+use crate::signs::eye_side;
 
 /// Both triangles on the sheet that shows both of them whole, if there is one.
 fn on_one_sheet(viewpoint: Viewpoint, triangles: [[DVec3; 3]; 2]) -> Option<([Flat; 2], [Seen; 2], f64)> {

@@ -39,7 +39,6 @@
 mod arrows;
 mod flat;
 mod overlap;
-mod signs;
 mod split;
 mod tiles;
 mod tree;
@@ -48,8 +47,8 @@ use rayon::prelude::*;
 use tetrascope_mesh::{CellFace, CellId, FaceAdjacency};
 
 use crate::Cells;
+use crate::signs::side_of;
 pub use arrows::ArrowReport;
-pub(crate) use signs::{eye_side, side_of};
 use split::Face;
 use tree::Tree;
 

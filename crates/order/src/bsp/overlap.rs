@@ -3,7 +3,7 @@
 use glam::DVec3;
 use tetrascope_view::Viewpoint;
 
-use super::signs::{eye_side, side_of};
+use crate::signs::{eye_side, side_of};
 
 /// A triangle that is not seen edge-on.
 #[derive(Clone, Copy, Debug)]

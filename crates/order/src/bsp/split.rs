@@ -4,7 +4,7 @@ use glam::DVec3;
 use tetrascope_mesh::CellId;
 use tetrascope_view::Viewpoint;
 
-use super::signs::{eye_side, side_of, sign, signed_volume};
+use crate::signs::{eye_side, side_of, sign, signed_volume};
 
 /// A boundary face. Its three points span a plane, since its cell has a volume.
 #[derive(Clone, Copy, Debug)]

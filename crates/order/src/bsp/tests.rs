@@ -8,8 +8,8 @@ use tetrascope_mesh::{CellId, FaceAdjacency, VertexId};
 use tetrascope_view::Viewpoint;
 
 use super::overlap::{Seen, is_before, overlap};
-use super::signs::{eye_side, side_of};
 use super::*;
+use crate::signs::{eye_side, side_of};
 
 /// Points and cells.
 #[derive(Clone, Debug, Default)]

@@ -4,7 +4,7 @@ use glam::DVec3;
 use tetrascope_view::Viewpoint;
 
 use super::ROUNDING;
-use crate::bsp::{eye_side, side_of};
+use crate::signs::{eye_side, side_of};
 
 /// How two tetrahedra lie, seen from the eye.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -9,7 +9,7 @@ use super::body::{Body, MOST_PLANES, Parts, are_seen_apart};
 use super::components::components;
 use super::relation::{Ball, Relation, eye_height, relation};
 use super::{MEMBERS, ROUNDING, corners};
-use crate::bsp::side_of;
+use crate::signs::side_of;
 use crate::{Cells, CutPlane};
 
 /// Pairs of cells of which the exact relation is looked for; a few microseconds each.

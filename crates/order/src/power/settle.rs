@@ -3,17 +3,15 @@
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 
-use glam::DVec3;
 use rayon::prelude::*;
-use robust::orient3d;
 use tetrascope_mesh::{CellId, FaceAdjacency, VertexId};
 use tetrascope_view::Viewpoint;
 
-use super::certify::coord;
-use super::double::{Double, ROUNDING};
+use super::double::Double;
 use super::frame::Frame;
 use super::keys::Key;
 use crate::Cells;
+use crate::signs::{eye_side, side_of};
 
 /// Up to this many cells common faces are found by comparing all pairs; beyond, through an adjacency of their own.
 const FEW: usize = 12;
@@ -23,10 +21,6 @@ const PRECISE_PER_TASK: usize = 32;
 
 /// Cells whose faces are worth a task.
 const FACES_PER_TASK: usize = 256;
-
-/// Bound of the rounding of a three by three determinant of two differences and a given row, relative to its permanent: two
-/// roundings for the differences, three products, three sums and one for the rest are nine of 2⁻⁵³; this is sixteen.
-const ROUNDING_F64: f64 = 8.0 * f64::EPSILON;
 
 /// What telling cells apart takes.
 #[derive(Clone, Copy)]
@@ -196,39 +190,8 @@ fn nearer(cells: Cells<'_>, viewpoint: Viewpoint, first: [VertexId; 4], second: 
     let &second_apex = second.iter().find(|v| !first.contains(v))?;
     let mut face = first.iter().filter(|v| **v != first_apex).map(|v| cells.positions[v.index()]);
     let face = [face.next()?, face.next()?, face.next()?];
-    let side = |p: DVec3| orient3d(coord(face[0]), coord(face[1]), coord(face[2]), coord(p));
-    let eye_side = match viewpoint {
-        Viewpoint::Eye(eye) => side(eye),
-        Viewpoint::Direction(direction) => side_of_infinity(face, direction),
-    };
-    if eye_side == 0.0 {
-        return None;
-    }
-    let [first_side, second_side] = [first_apex, second_apex].map(|v| side(cells.positions[v.index()]));
-    let are_apart = (first_side > 0.0 && second_side < 0.0) || (first_side < 0.0 && second_side > 0.0);
-    are_apart.then_some((eye_side > 0.0) == (first_side > 0.0))
-}
-
-/// The sign of [`orient3d`] of a face and a point infinitely far against the direction; 0 below 1e-30 of what cancels.
-fn side_of_infinity(face: [DVec3; 3], direction: DVec3) -> f64 {
-    // Nearly always f64 tells, or has nothing to cancel.
-    let [first, second] = [face[1] - face[0], face[2] - face[0]];
-    let rough = direction.dot(first.cross(second));
-    let [along, across, over] = [direction.abs(), first.abs(), second.abs()];
-    let swapped = DVec3::new(across.y * over.z, across.z * over.x, across.x * over.y)
-        + DVec3::new(across.z * over.y, across.x * over.z, across.y * over.x);
-    if rough.abs() > ROUNDING_F64 * along.dot(swapped) {
-        return rough;
-    }
-    let edge = |k: usize| -> [Double; 3] { std::array::from_fn(|i| Double::difference(face[k][i], face[0][i])) };
-    let edges = [edge(1), edge(2)];
-    let component = |i: usize| {
-        let (j, k) = ((i + 1) % 3, (i + 2) % 3);
-        Double::from(direction[i]) * (edges[0][j] * edges[1][k] - edges[0][k] * edges[1][j])
-    };
-    // Along an axis one component is all.
-    let volume = (0..3).filter(|&i| direction[i] != 0.0).fold(Double::from(0.0), |sum, i| sum + component(i)).high;
-    let permanent = direction.abs().element_sum()
-        * edges.iter().map(|edge| edge.iter().map(|component| component.high.abs()).sum::<f64>()).product::<f64>();
-    if volume.abs() > ROUNDING * permanent { volume } else { 0.0 }
+    let eye_side = eye_side(face, viewpoint);
+    let sides = [first_apex, second_apex].map(|v| side_of(face, cells.positions[v.index()]));
+    // Apart, and not seen edge-on.
+    (eye_side != 0 && sides[0] * sides[1] < 0).then_some(eye_side == sides[0])
 }

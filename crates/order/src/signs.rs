@@ -29,7 +29,7 @@ fn exact_side_of(plane: [DVec3; 3], p: DVec3) -> i8 {
 
 /// The number whose sign [`side_of`] gives: six times a volume, of which the sign is exact and the rest nearly so.
 #[inline]
-pub(super) fn signed_volume([a, b, c]: [DVec3; 3], p: DVec3) -> f64 {
+pub(crate) fn signed_volume([a, b, c]: [DVec3; 3], p: DVec3) -> f64 {
     // Faces share points, and planes across axes hold many: the adaptive predicate takes its longest way to these
     // zeros.
     if p == a || p == b || p == c || (0..3).any(|i| a[i] == p[i] && b[i] == p[i] && c[i] == p[i]) {
@@ -54,7 +54,7 @@ pub(crate) fn eye_side(points: [DVec3; 3], viewpoint: Viewpoint) -> i8 {
 
 /// 1, 0 or -1; 0 for NaN too.
 #[inline]
-pub(super) fn sign(value: f64) -> i8 {
+pub(crate) fn sign(value: f64) -> i8 {
     i8::from(value > 0.0) - i8::from(value < 0.0)
 }
 
