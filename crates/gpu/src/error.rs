@@ -1,0 +1,78 @@
+//! Why a picture was not drawn.
+
+use tetrascope_shaders::ShaderError;
+
+/// Why a picture was not drawn, or no device was opened.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum GpuError {
+    /// No adapter is there, or none that can draw.
+    #[error("no graphics adapter was found ({problem}); install its driver, or use the back end \"cpu\"")]
+    NoAdapter {
+        /// What the system says.
+        problem: String,
+    },
+    /// None of the adapters has this name.
+    #[error("no graphics adapter's name contains \"{name}\"; there are {known}")]
+    NoSuchAdapter {
+        /// The name.
+        name: String,
+        /// Names of those that are there.
+        known: String,
+    },
+    /// The adapter gave no device.
+    #[error("the graphics adapter \"{adapter}\" could not be opened: {problem}")]
+    Device {
+        /// The adapter.
+        adapter: String,
+        /// What the driver says.
+        problem: String,
+    },
+    /// Something is larger than the device takes at once.
+    #[error(
+        "{what} takes {needed} bytes, and the device \"{adapter}\" takes {limit} at once; use the back end \"cpu\""
+    )]
+    TooLarge {
+        /// What.
+        what: &'static str,
+        /// Bytes needed.
+        needed: u64,
+        /// Bytes that one buffer may have.
+        limit: u64,
+        /// The adapter.
+        adapter: String,
+    },
+    /// The device has no memory left.
+    #[error(
+        "the device \"{adapter}\" has not enough memory: about {needed} bytes are needed; use the back end \"cpu\""
+    )]
+    OutOfMemory {
+        /// The adapter.
+        adapter: String,
+        /// Bytes that the mesh and the frame take.
+        needed: u64,
+    },
+    /// The device went away while a frame was drawn.
+    #[error("the graphics device \"{adapter}\" was lost in frame {frame}: {problem}; the frame was not drawn")]
+    Lost {
+        /// The adapter.
+        adapter: String,
+        /// Number of the frame since the renderer was made, from 1.
+        frame: u64,
+        /// What the driver says.
+        problem: String,
+    },
+    /// The driver refused what it was asked for; a defect here or there.
+    #[error("the driver of \"{adapter}\" refused a command in frame {frame}: {problem}")]
+    Driver {
+        /// The adapter.
+        adapter: String,
+        /// Number of the frame since the renderer was made, from 1; 0 before the first.
+        frame: u64,
+        /// What it says.
+        problem: String,
+    },
+    /// A program could not be composed; a defect.
+    #[error(transparent)]
+    Shader(#[from] ShaderError),
+}

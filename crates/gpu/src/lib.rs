@@ -1,0 +1,11 @@
+//! The GPU back end: Projected Tetrahedra on any device that wgpu reaches.
+
+mod device;
+mod error;
+mod kernel;
+
+#[cfg(test)]
+mod testing;
+
+pub use device::{AdapterChoice, AdapterDescription, Gpu, adapters};
+pub use error::GpuError;

@@ -1,0 +1,46 @@
+//! The device of this crate's tests: a driver of Vulkan, asked for by name.
+
+use std::sync::{Arc, OnceLock};
+
+use bytemuck::Pod;
+
+use crate::{AdapterChoice, Gpu};
+
+/// The device, or `None` where there is none: the test then says that it is skipped. With `TETRASCOPE_REQUIRE_GPU` in the environment a
+/// missing device fails it.
+pub(crate) fn gpu() -> Option<Arc<Gpu>> {
+    static SHARED: OnceLock<Option<Arc<Gpu>>> = OnceLock::new();
+    let gpu = SHARED.get_or_init(|| {
+        let name = std::env::var("TETRASCOPE_TEST_ADAPTER").unwrap_or_else(|_| "vulkan".to_owned());
+        match Gpu::open(&AdapterChoice { name: Some(name), default_limits: true }) {
+            Ok(gpu) => Some(Arc::new(gpu)),
+            Err(error) if std::env::var_os("TETRASCOPE_REQUIRE_GPU").is_some() => panic!("{error}"),
+            Err(error) => {
+                println!("skipped: {error}");
+                None
+            }
+        }
+    });
+    gpu.clone()
+}
+
+/// Runs `work` and fails if the driver finds anything wrong with what it was asked.
+pub(crate) fn checked<T>(gpu: &Gpu, work: impl FnOnce() -> T) -> T {
+    let scope = gpu.device.push_error_scope(wgpu::ErrorFilter::Validation);
+    let done = work();
+    if let Some(error) = pollster::block_on(scope.pop()) {
+        panic!("{error}");
+    }
+    done
+}
+
+/// The first `count` things in a buffer, after commands.
+pub(crate) fn contents<T: Pod>(
+    gpu: &Gpu,
+    encoder: wgpu::CommandEncoder,
+    buffer: &wgpu::Buffer,
+    count: usize,
+) -> Vec<T> {
+    let bytes = gpu.read(encoder, buffer, (count * size_of::<T>()) as u64).expect("the device answers");
+    bytemuck::pod_collect_to_vec(&bytes[..count * size_of::<T>()])
+}
