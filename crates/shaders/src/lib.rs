@@ -29,4 +29,6 @@ pub use program::{Access, Binding, BindingKind, CAPABILITIES, Program, ShaderErr
 pub use sources::SOURCES;
 
 #[cfg(test)]
+mod layout_tests;
+#[cfg(test)]
 mod tests;

@@ -7,4 +7,22 @@ macro_rules! sources {
     };
 }
 
-sources!["cell/cell.wgsl", "include/frame.wgsl", "include/list.wgsl", "integrate/light.wgsl",];
+sources![
+    "cell/cell.wgsl",
+    "include/frame.wgsl",
+    "include/list.wgsl",
+    "integrate/light.wgsl",
+    "order/candidate_own.wgsl",
+    "order/candidate_permuted.wgsl",
+    "order/cull.wgsl",
+    "order/gather.wgsl",
+    "raster/clear.wgsl",
+    "raster/every_tile.wgsl",
+    "raster/find_rings.wgsl",
+    "raster/no_rings.wgsl",
+    "raster/ordered.wgsl",
+    "raster/rings.wgsl",
+    "raster/sorted.wgsl",
+    "raster/staged.wgsl",
+    "raster/tile.wgsl",
+];

@@ -1,0 +1,21 @@
+// A picture with nothing in it: one invocation a pixel or count of a tile.
+
+#use include/frame.wgsl
+#use include/list.wgsl
+
+@group(0) @binding(13) var<storage, read_write> picture: array<vec4<u32>>;
+
+@compute @workgroup_size(GROUP)
+fn clear(
+    @builtin(workgroup_id) group: vec3<u32>,
+    @builtin(num_workgroups) groups: vec3<u32>,
+    @builtin(local_invocation_index) local: u32,
+) {
+    let place = group_number(group, groups) * GROUP + local;
+    let pixels = frame.extent.x * frame.extent.y;
+    if place < pixels {
+        picture[place] = vec4<u32>(0u, 0u, 0u, bitcast<u32>(1.0));
+    } else if place < pixels + frame.tiles.x * frame.tiles.y {
+        picture[place] = vec4<u32>(0u);
+    }
+}

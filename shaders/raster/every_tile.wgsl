@@ -1,0 +1,5 @@
+// All tiles sort.
+
+fn has_ring(tile: u32) -> bool {
+    return true;
+}

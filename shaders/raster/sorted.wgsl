@@ -1,0 +1,186 @@
+// Pixels that sort by themselves what their rays meet, with no memory but a few registers each.
+//
+// One group draws one tile, one invocation a pixel. A pixel holds back up to HELD segments, the nearest first, by the depth of their middles
+// and, where those are equal, by their place in the list.
+//
+// - LAYERS: it runs through the tile's cells as often as it takes, each time for the HELD nearest behind those it has. Exact without any order; time
+//   grows with the layers divided by HELD.
+// - else, a window: it runs through them once, and gives up the nearest when one more comes than the window holds (a k-buffer).
+
+#use integrate/light.wgsl
+#use <volume>
+#use <effects>
+#use raster/tile.wgsl
+#use raster/staged.wgsl
+#use <rings>
+
+// A place in the order of a pixel: nothing comes before the first.
+struct Key {
+    depth: f32,
+    place: u32,
+}
+
+var<workgroup> range_of_tile: vec2<u32>;
+var<workgroup> open_pixels: atomic<u32>;
+var<workgroup> is_any_open: u32;
+
+var<private> held: array<Key, HELD>;
+var<private> held_count: u32;
+var<private> pixel: Pixel;
+var<private> joint: Joint;
+var<private> done: Done;
+
+fn is_before(a: Key, b: Key) -> bool {
+    return a.depth < b.depth || (a.depth == b.depth && a.place < b.place);
+}
+
+// Puts a segment to its place among those held; there is room.
+fn hold(key: Key) {
+    var slot = held_count;
+    while slot > 0u && is_before(key, held[slot - 1u]) {
+        held[slot] = held[slot - 1u];
+        slot -= 1u;
+    }
+    held[slot] = key;
+    held_count += 1u;
+}
+
+// Blends the segment of a cell, which is set up once more: that costs less than to keep what it was.
+fn draw_segment(place: u32, position: vec2<i32>) {
+    let vertices = drawn[place];
+    let cell = set_up(vertices);
+    let sample = sample(cell, position);
+    if !sample.covered {
+        return;
+    }
+    let pieces = find_pieces_of(cell);
+    let optics = Optics(cell.reference, cell.scalars.x, cell.scalars.y, pieces.x, pieces.y);
+    var carried = joint;
+    var crossings = 0u;
+    let light = shade(cell, vertices, optics, sample, &carried, &crossings);
+    joint = carried;
+    var blended = pixel;
+    blend(&blended, light);
+    pixel = blended;
+    done.crossings += crossings;
+    done.fragments += 1u;
+    done.sorted += 1u;
+}
+
+fn is_pixel_open() -> bool {
+    return pixel.transmittance >= frame.termination;
+}
+
+// The nearest segment leaves the window.
+fn give_up_nearest(position: vec2<i32>) {
+    let nearest = held[0];
+    held_count -= 1u;
+    for (var slot = 0u; slot < held_count; slot++) {
+        held[slot] = held[slot + 1u];
+    }
+    if is_pixel_open() {
+        draw_segment(nearest.place, position);
+    }
+}
+
+@compute @workgroup_size(TILE_PIXELS)
+fn draw(
+    @builtin(workgroup_id) group: vec3<u32>,
+    @builtin(num_workgroups) groups: vec3<u32>,
+    @builtin(local_invocation_index) local: u32,
+) {
+    let tile = group_number(group, groups);
+    let tiles = frame.tiles.x * frame.tiles.y;
+    if local == 0u {
+        if tile < tiles && has_ring(tile) {
+            range_of_tile = vec2<u32>(tile_starts[tile], tile_starts[tile + 1u]);
+        } else {
+            range_of_tile = vec2<u32>(0u, 0u);
+        }
+    }
+    let range = workgroupUniformLoad(&range_of_tile);
+    if range.x == range.y {
+        return;
+    }
+    let position = pixel_of(tile, local);
+    let is_seen = is_in_picture(position);
+    pixel = Pixel(vec3<f32>(0.0), 0.0);
+    if is_seen {
+        pixel = load_pixel(position);
+    }
+    joint = no_joint();
+    done = Done(0u, 0u, 0u, 0u);
+    var is_first_run = true;
+    var last = Key(0.0, 0u);
+    var is_open = is_seen && is_pixel_open();
+    loop {
+        held_count = 0u;
+        for (var first = range.x; first < range.y; first += BATCH) {
+            let count = min(BATCH, range.y - first);
+            workgroupBarrier();
+            if local < count {
+                stage(local, tile_items[first + local]);
+            }
+            workgroupBarrier();
+            for (var slot = 0u; slot < count; slot++) {
+                if !is_open || is_outside(staged[slot].outline, position) {
+                    continue;
+                }
+                let sample = sample(staged[slot], position);
+                if !sample.covered {
+                    continue;
+                }
+                let key = Key(0.5 * (sample.depth.x + sample.depth.y), tile_items[first + slot]);
+                if LAYERS {
+                    if !is_first_run && !is_before(last, key) {
+                        continue;
+                    }
+                    if held_count == HELD {
+                        if !is_before(key, held[HELD - 1u]) {
+                            continue;
+                        }
+                        held_count -= 1u;
+                    }
+                    hold(key);
+                } else {
+                    // A window of HELD - 1, and one that is on its way.
+                    hold(key);
+                    if held_count == HELD {
+                        give_up_nearest(position);
+                        is_open = is_pixel_open();
+                    }
+                }
+                done.most = max(done.most, held_count);
+            }
+        }
+        if is_open {
+            for (var slot = 0u; slot < held_count && is_pixel_open(); slot++) {
+                draw_segment(held[slot].place, position);
+            }
+            // Fewer than there was room for: these were the last.
+            is_open = LAYERS && is_pixel_open() && held_count == HELD;
+            if is_open {
+                last = held[HELD - 1u];
+            }
+        }
+        is_first_run = false;
+        if local == 0u {
+            atomicStore(&open_pixels, 0u);
+        }
+        workgroupBarrier();
+        if is_open {
+            atomicAdd(&open_pixels, 1u);
+        }
+        workgroupBarrier();
+        if local == 0u {
+            is_any_open = atomicLoad(&open_pixels);
+        }
+        if workgroupUniformLoad(&is_any_open) == 0u {
+            break;
+        }
+    }
+    if is_seen {
+        store_pixel(position, pixel);
+    }
+    count_done(tile, local, done);
+}

@@ -1,0 +1,87 @@
+// One tile of the picture and its pixels: one group a tile, one invocation a pixel.
+//
+// Thirty-two invocations in a row have eight by four pixels, so that what runs together on a device sees the same few cells.
+
+#use include/frame.wgsl
+#use include/list.wgsl
+
+@group(0) @binding(10) var<storage, read> drawn: array<vec4<u32>>;
+@group(0) @binding(11) var<storage, read> tile_starts: array<u32>;
+@group(0) @binding(12) var<storage, read> tile_items: array<u32>;
+// Pixels row by row: red, green, blue, transmittance, as bits; then for every tile: fragments, crossings, fragments that were sorted, most that one pixel
+// sorted.
+@group(0) @binding(13) var<storage, read_write> picture: array<vec4<u32>>;
+
+var<workgroup> fragments_of_tile: atomic<u32>;
+var<workgroup> crossings_of_tile: atomic<u32>;
+var<workgroup> sorted_of_tile: atomic<u32>;
+var<workgroup> most_of_tile: atomic<u32>;
+
+// A pixel while it is drawn.
+struct Pixel {
+    rgb: vec3<f32>,
+    transmittance: f32,
+}
+
+// What was done in a pixel.
+struct Done {
+    fragments: u32,
+    crossings: u32,
+    sorted: u32,
+    most: u32,
+}
+
+// A pixel of a tile: absolute column and row.
+fn pixel_of(tile: u32, local: u32) -> vec2<i32> {
+    let corner = vec2<u32>(tile % frame.tiles.x, tile / frame.tiles.x) * TILE_SIDE;
+    let strip = local >> 5u;
+    let within = vec2<u32>((local & 7u) + 8u * (strip & 1u), ((local >> 3u) & 3u) + 4u * (strip >> 1u));
+    return vec2<i32>(frame.origin + corner + within);
+}
+
+fn is_in_picture(pixel: vec2<i32>) -> bool {
+    return all(vec2<u32>(pixel) < frame.origin + frame.extent);
+}
+
+fn place_of(pixel: vec2<i32>) -> u32 {
+    let within = vec2<u32>(pixel) - frame.origin;
+    return within.y * frame.extent.x + within.x;
+}
+
+fn load_pixel(pixel: vec2<i32>) -> Pixel {
+    let stored = bitcast<vec4<f32>>(picture[place_of(pixel)]);
+    return Pixel(stored.rgb, stored.a);
+}
+
+fn store_pixel(pixel: vec2<i32>, value: Pixel) {
+    picture[place_of(pixel)] = bitcast<vec4<u32>>(vec4<f32>(value.rgb, value.transmittance));
+}
+
+fn is_outside(outline: vec4<i32>, pixel: vec2<i32>) -> bool {
+    return any(pixel < outline.xy) || any(pixel > outline.zw);
+}
+
+// Puts light behind what a pixel has.
+fn blend(pixel: ptr<function, Pixel>, light: Light) {
+    (*pixel).rgb += (*pixel).transmittance * light.rgb;
+    (*pixel).transmittance *= light.transmittance;
+}
+
+// Adds what was done to the tile's counts. All invocations of the group take part.
+fn count_done(tile: u32, local: u32, done: Done) {
+    atomicAdd(&fragments_of_tile, done.fragments);
+    atomicAdd(&crossings_of_tile, done.crossings);
+    atomicAdd(&sorted_of_tile, done.sorted);
+    atomicMax(&most_of_tile, done.most);
+    workgroupBarrier();
+    if local == 0u {
+        let place = frame.extent.x * frame.extent.y + tile;
+        let before = picture[place];
+        let now = vec3<u32>(
+            atomicLoad(&fragments_of_tile),
+            atomicLoad(&crossings_of_tile),
+            atomicLoad(&sorted_of_tile),
+        );
+        picture[place] = vec4<u32>(before.xyz + now, max(before.w, atomicLoad(&most_of_tile)));
+    }
+}
