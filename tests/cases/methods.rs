@@ -3,8 +3,8 @@
 use glam::DVec3;
 use tetrascope::mesh::TetMesh;
 use tetrascope::{
-    Camera, CpuRenderer, Integration, IsosurfaceMethod, Lighting, Mixing, OpticalModel, OrderMethod, Plan, Projection,
-    RenderError, Silent, SurfaceShading, TransferFunction, View, reference,
+    Camera, CpuRenderer, Integration, IsosurfaceMethod, Lighting, Mixing, OpticalModel, OrderMethod, Plan, PlanError,
+    Projection, RenderError, Silent, SurfaceShading, TransferFunction, View, reference,
 };
 use tetrascope_tests::chords::{boundary, chords};
 use tetrascope_tests::compare::difference;
@@ -217,14 +217,17 @@ fn methods_that_do_not_go_together_are_refused() {
         assert!(message.contains("\"exact\"") && message.contains("\"cumulative\""), "{message}");
     }
     let vertex = Plan { integration: Integration::Vertex, ..with_surfaces(&base, vec![white(0.0, 0.5)]) };
-    assert_eq!(refused(&vertex), RenderError::FanWithIsosurfaces);
+    assert_eq!(refused(&vertex), PlanError::FanWithIsosurfaces.into());
     let stopped = IsosurfaceMethod::Map { size: 64, mixing: Mixing::Stopped };
     let without_table = by_method(&base, vec![white(0.0, 0.5)], stopped);
-    assert_eq!(refused(&without_table), RenderError::NoTableToStop { integration: Integration::Exact });
+    assert_eq!(refused(&without_table), PlanError::NoTableToStop { integration: Integration::Exact }.into());
     for size in [0, 1, 4097] {
         let map = IsosurfaceMethod::Map { size, mixing: Mixing::Smooth };
         assert!(
-            matches!(refused(&by_method(&base, vec![white(0.0, 0.5)], map)), RenderError::Isosurfaces(_)),
+            matches!(
+                refused(&by_method(&base, vec![white(0.0, 0.5)], map)),
+                RenderError::Plan(PlanError::Isosurfaces(_))
+            ),
             "{size}"
         );
     }

@@ -53,11 +53,9 @@ mod fast;
 mod geometry;
 mod grid;
 pub mod reference;
-mod rendered;
 
 #[cfg(test)]
 mod reference_tests;
 
 pub use error::RenderError;
 pub use fast::CpuRenderer;
-pub use rendered::{Counts, OrderReport, Rendered};

@@ -13,15 +13,14 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use tetrascope_integrate::{Integrator, TableDomain};
 use tetrascope_mesh::TetMesh;
 use tetrascope_order::Guarantee;
-use tetrascope_scene::{Gradients, Plan, Progress, Stage};
+use tetrascope_scene::{Counts, Gradients, OrderReport, Plan, Progress, Rendered, Stage, Stopwatch, check_scalars};
 use tetrascope_view::LinearImage;
 
+use crate::RenderError;
 use crate::domain::table_domain;
-use crate::error::{check_scalars, on_threads};
+use crate::error::on_threads;
 use crate::geometry::{ClipCell, PixelBox, PixelSpace, Points, ascending, is_outside_rectangle};
 use crate::grid::{Bins, Tile, TileGrid};
-use crate::rendered::Stopwatch;
-use crate::{Counts, OrderReport, RenderError, Rendered};
 use light::Light;
 use ray::{Fragment, Ray, RayComposer, Surfaces};
 

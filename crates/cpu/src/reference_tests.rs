@@ -5,7 +5,7 @@ use tetrascope_integrate::{
     Integration, Isosurface, Isosurfaces, OpticalModel, Phong, SurfaceShading, TransferFunction,
 };
 use tetrascope_mesh::{Cells, Dataset, StructuredBlock, TetMesh, decompose, rings_sample};
-use tetrascope_scene::{IsosurfaceMethod, IsosurfacePlan, Lighting, Mixing, Plan, Silent};
+use tetrascope_scene::{IsosurfaceMethod, IsosurfacePlan, Lighting, Mixing, Plan, PlanError, Silent};
 use tetrascope_view::{Camera, LinearImage, Projection, View};
 
 use crate::{RenderError, reference};
@@ -378,7 +378,7 @@ fn every_integration_along_a_ray_is_drawn() {
             plan.integration = integration;
             let drawn = reference::render(&cube.0, &cube.1, &plan, &Silent);
             if !integration.covers(model) {
-                assert!(matches!(drawn, Err(RenderError::Method(_))), "{integration} {model}");
+                assert!(matches!(drawn, Err(RenderError::Plan(PlanError::Method(_)))), "{integration} {model}");
                 continue;
             }
             let drawn = drawn.unwrap();

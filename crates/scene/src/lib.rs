@@ -31,6 +31,7 @@
 //! nothing. Without the feature `file` it needs no serde and is the plan, the scene and the fields alone.
 
 mod blank;
+mod check;
 #[cfg(feature = "file")]
 mod complete;
 pub mod defaults;
@@ -43,10 +44,12 @@ mod finite;
 #[cfg(feature = "file")]
 mod parse;
 mod plan;
+mod rendered;
 mod scene;
 mod text;
 
 pub use blank::explain_blank;
+pub use check::{PlanError, check_scalars};
 #[cfg(feature = "file")]
 pub use complete::{Completed, MAX_ERROR};
 pub use error::SceneError;
@@ -65,6 +68,7 @@ pub use plan::{
     Backend, Decision, Gradients, IsosurfaceMethod, IsosurfacePlan, Lighting, Mixing, Plan, Progress, Silent, Stage,
     UnknownBackend,
 };
+pub use rendered::{Counts, OrderReport, Rendered, Stopwatch};
 pub use scene::Scene;
 pub use text::short;
 

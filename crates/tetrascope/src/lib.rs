@@ -42,7 +42,7 @@ pub use order_worth::OrderWorth;
 pub use render::{Picture, is_blank, render_scene, render_volume, warn_of_non_finite};
 pub use volume::{SAMPLE, Volume, VolumeField, is_builtin, resolve_path};
 
-pub use tetrascope_cpu::{Counts, CpuRenderer, OrderReport, RenderError, Rendered, reference};
+pub use tetrascope_cpu::{CpuRenderer, RenderError, reference};
 pub use tetrascope_integrate::{
     Crossing, Deviation, Integration, Integrator, Isosurface, IsosurfaceError, IsosurfaceMap, Isosurfaces, LengthAxis,
     MethodError, OpticalModel, Phong, PhongError, PsiTable, RgbaAssoc, RunningIntegrals, ScalarAxis, Segment,
@@ -60,11 +60,11 @@ pub use tetrascope_order::{
     CycleRemedy, Guarantee, MeshVisibility, OrderChoice, OrderMethod, Overlaps, PowerCertificate, Relations, Verdict,
 };
 pub use tetrascope_scene::{
-    ArraySummary, Association, Backend, CameraSection, Choice, Completed, Decision, Field, FieldError, FieldOnMesh,
-    Gradients, IsosurfaceMethod, IsosurfaceMethodName, IsosurfacePlan, IsosurfaceSection, LengthAxisName,
-    LightDirection, LightName, LightSection, Lighting, MeshFacts, Mixing, Plan, Progress, ProjectionName, Scene,
-    SceneError, SceneFile, SceneSyntaxError, Shading, Silent, Stage, explain_blank, select_field, short,
-    summarize_arrays,
+    ArraySummary, Association, Backend, CameraSection, Choice, Completed, Counts, Decision, Field, FieldError,
+    FieldOnMesh, Gradients, IsosurfaceMethod, IsosurfaceMethodName, IsosurfacePlan, IsosurfaceSection, LengthAxisName,
+    LightDirection, LightName, LightSection, Lighting, MeshFacts, Mixing, OrderReport, Plan, PlanError, Progress,
+    ProjectionName, Rendered, Scene, SceneError, SceneFile, SceneSyntaxError, Shading, Silent, Stage, explain_blank,
+    select_field, short, summarize_arrays,
 };
 pub use tetrascope_view::{Camera, LinearImage, Projection, View, ViewError};
 

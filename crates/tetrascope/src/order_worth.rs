@@ -1,8 +1,7 @@
 //! Which order a mesh is given, and what it was worth in a picture.
 
-use tetrascope_cpu::Rendered;
 use tetrascope_order::{CycleRemedy, Guarantee, OrderMethod, Overlaps, PowerCertificate};
-use tetrascope_scene::{Backend, Completed, Plan, short};
+use tetrascope_scene::{Backend, Completed, Plan, Rendered, short};
 
 use crate::threads::on_threads;
 use crate::{Error, VolumeField};

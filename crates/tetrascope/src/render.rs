@@ -3,9 +3,8 @@
 use std::path::Path;
 use std::time::{Duration, Instant};
 
-use tetrascope_cpu::Counts;
 use tetrascope_io::write_image;
-use tetrascope_scene::{Plan, Progress, SceneFile, explain_blank};
+use tetrascope_scene::{Counts, Plan, Progress, SceneFile, explain_blank};
 use tetrascope_view::LinearImage;
 
 use crate::{Error, OrderWorth, Volume, resolve_path};

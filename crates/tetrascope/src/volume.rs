@@ -4,11 +4,11 @@ use std::path::{Path, PathBuf};
 use std::sync::{Arc, OnceLock};
 use std::time::{Duration, Instant};
 
-use tetrascope_cpu::{CpuRenderer, Rendered, reference};
+use tetrascope_cpu::{CpuRenderer, reference};
 use tetrascope_io::read_mesh;
 use tetrascope_mesh::{Dataset, Decomposition, decompose};
 use tetrascope_scene::{
-    ArraySummary, Backend, Field, FieldOnMesh, MeshFacts, Plan, Progress, Stage, place_on_mesh, select_field,
+    ArraySummary, Backend, Field, FieldOnMesh, MeshFacts, Plan, Progress, Rendered, Stage, place_on_mesh, select_field,
     summarize_arrays,
 };
 

@@ -43,14 +43,13 @@ use rayon::prelude::*;
 use tetrascope_integrate::{Integration, Isosurfaces};
 use tetrascope_mesh::{CellId, ChordLengths, Frame, TetMesh, VertexId, point_gradients, segment_lengths};
 use tetrascope_order::{Cells, CycleRemedy, Guarantee, MeshVisibility, OrderMethod, PixelSort, VisibilityOrder};
-use tetrascope_scene::{Gradients, Plan, Progress, Stage};
+use tetrascope_scene::{Counts, Gradients, OrderReport, Plan, Progress, Rendered, Stage, Stopwatch, check_scalars};
 use tetrascope_view::LinearImage;
 
-use crate::error::{check_methods, check_scalars, on_threads};
+use crate::RenderError;
+use crate::error::on_threads;
 use crate::geometry::{PixelSpace, Points, ascending};
 use crate::grid::{Bins, TileGrid};
-use crate::rendered::Stopwatch;
-use crate::{Counts, OrderReport, RenderError, Rendered};
 use cell::{NOWHERE, Outline};
 use effects::Effects;
 use held::Held;
@@ -178,10 +177,9 @@ impl CpuRenderer {
     /// The same plan gives the same bits, whatever the number of threads.
     ///
     /// # Errors
-    /// [`RenderError::Threads`] if the plan asks for threads that cannot be started, [`RenderError::Method`] and
-    /// [`RenderError::Isosurfaces`] if its methods do not go together or its tables have no possible size.
+    /// [`RenderError::Threads`] if the plan asks for threads that cannot be started, [`RenderError::Plan`] if its methods do not go together or its tables have no possible size.
     pub fn render(&self, plan: &Plan, progress: &dyn Progress) -> Result<Rendered, RenderError> {
-        check_methods(plan)?;
+        plan.check()?;
         on_threads(plan.threads, || self.render_here(plan, progress))?
     }
 

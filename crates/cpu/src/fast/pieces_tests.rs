@@ -7,11 +7,11 @@ use glam::DVec3;
 use tetrascope_integrate::{Integration, Isosurface, Isosurfaces, OpticalModel, SurfaceShading, TransferFunction};
 use tetrascope_mesh::{CellId, TetMesh};
 use tetrascope_order::{Cells, Centroid, CycleRemedy, Order, VisibilityOrder};
-use tetrascope_scene::{IsosurfaceMethod, IsosurfacePlan, Plan, Silent};
+use tetrascope_scene::{IsosurfaceMethod, IsosurfacePlan, Plan, PlanError, Rendered, Silent};
 use tetrascope_view::{Camera, LinearImage, Projection, View, Viewpoint};
 
 use super::{CpuRenderer, Prepared, remember};
-use crate::{RenderError, Rendered, reference};
+use crate::{RenderError, reference};
 
 /// Cells by their centroids, said to be one ring.
 #[derive(Debug)]
@@ -196,7 +196,7 @@ fn a_fan_is_not_cut() {
     let renderer = CpuRenderer::new(&mesh, &soup.scalars).unwrap();
     let plan = plan(views()[0], 1.0);
     let plan = Plan { integration: Integration::Vertex, cycles: CycleRemedy::Cut, ..plan };
-    assert!(matches!(renderer.render(&plan, &Silent), Err(RenderError::FanWithCut)));
+    assert!(matches!(renderer.render(&plan, &Silent), Err(RenderError::Plan(PlanError::FanWithCut))));
 }
 
 /// Pixel centers that lie in the plane of a cut: their rays belong to one of the two pieces, and nothing is drawn twice.

@@ -5,12 +5,12 @@ use proptest::prelude::*;
 use tetrascope_integrate::{Integration, Isosurface, Isosurfaces, OpticalModel, SurfaceShading, TransferFunction};
 use tetrascope_mesh::{Dataset, TetMesh, decompose, rings_sample};
 use tetrascope_order::{CycleRemedy, OrderMethod};
-use tetrascope_scene::{IsosurfaceMethod, IsosurfacePlan, Lighting, Mixing, Plan, Silent};
+use tetrascope_scene::{Counts, IsosurfaceMethod, IsosurfacePlan, Lighting, Mixing, Plan, PlanError, Silent};
 use tetrascope_view::{Camera, LinearImage, Projection, View};
 
 use super::CpuRenderer;
 use super::held::LISTED;
-use crate::{Counts, RenderError, reference};
+use crate::reference;
 
 /// In any channel, between f32 and f64 or between two orders of the same f32 lights: as the issue of pictures asks, some ten times what
 /// is measured.
@@ -336,7 +336,7 @@ fn window_of_nothing_is_refused() {
     let (mesh, scalars) = fan();
     let renderer = CpuRenderer::new(&mesh, &scalars).unwrap();
     let found = renderer.render(&plan(views()[0], OrderMethod::KBuffer { window: 0 }), &Silent);
-    assert_eq!(found.unwrap_err(), RenderError::EmptyWindow);
+    assert_eq!(found.unwrap_err(), PlanError::EmptyWindow.into());
     let largest = renderer.render(&plan(views()[0], OrderMethod::KBuffer { window: u32::MAX }), &Silent).unwrap();
     assert_close(&largest.image, &draw_slowly(&(mesh, scalars), &plan(views()[0], OrderMethod::PerPixel)), "largest");
 }

@@ -3,8 +3,9 @@
 use std::time::{Duration, Instant};
 
 use tetrascope_order::Guarantee;
-use tetrascope_scene::Stage;
 use tetrascope_view::LinearImage;
+
+use crate::Stage;
 
 /// A picture, and what it took.
 #[derive(Clone, Debug)]
@@ -56,24 +57,27 @@ pub struct Counts {
 }
 
 /// Measures stages one after another.
-pub(crate) struct Stopwatch {
+#[derive(Clone, Debug)]
+pub struct Stopwatch {
     since: Instant,
     timings: Vec<(Stage, Duration)>,
 }
 
 impl Stopwatch {
-    pub(crate) fn start() -> Self {
+    /// The first stage begins now.
+    pub fn start() -> Self {
         Self { since: Instant::now(), timings: Vec::new() }
     }
 
     /// Ends a stage that began when the last one ended.
-    pub(crate) fn lap(&mut self, stage: Stage) {
+    pub fn lap(&mut self, stage: Stage) {
         let now = Instant::now();
         self.timings.push((stage, now - self.since));
         self.since = now;
     }
 
-    pub(crate) fn finish(self) -> Vec<(Stage, Duration)> {
+    /// Wall time of each stage, for [`Rendered::timings`].
+    pub fn finish(self) -> Vec<(Stage, Duration)> {
         self.timings
     }
 }
