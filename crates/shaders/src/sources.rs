@@ -7,4 +7,28 @@ macro_rules! sources {
     };
 }
 
-sources!["cell/cell.wgsl", "include/frame.wgsl", "include/list.wgsl", "integrate/light.wgsl",];
+sources![
+    "cell/cell.wgsl",
+    "include/frame.wgsl",
+    "include/list.wgsl",
+    "integrate/absorption.wgsl",
+    "integrate/average.wgsl",
+    "integrate/cumulative.wgsl",
+    "integrate/density_emitter.wgsl",
+    "integrate/emission.wgsl",
+    "integrate/emitter.wgsl",
+    "integrate/ends.wgsl",
+    "integrate/exact.wgsl",
+    "integrate/exponential.wgsl",
+    "integrate/light.wgsl",
+    "integrate/optics.wgsl",
+    "integrate/partial.wgsl",
+    "integrate/parts.wgsl",
+    "integrate/pieces.wgsl",
+    "integrate/table.wgsl",
+    "integrate/table_2d.wgsl",
+    "integrate/table_3d.wgsl",
+    "integrate/visible.wgsl",
+    "integrate/weights.wgsl",
+    "test/integrate.wgsl",
+];
