@@ -58,9 +58,9 @@ fn draw(
             let cell = staged[slot];
             let sample = sample(cell, position);
             if sample.covered {
-                let pieces = staged_pieces[slot];
-                let optics = Optics(cell.reference, cell.scalars.x, cell.scalars.y, pieces.x, pieces.y);
-                let light = shade(cell, staged_vertices[slot], optics, sample, &joint, &done.crossings);
+                var crossings = 0u;
+                let light = shade(cell, staged_vertices[slot], staged_optics[slot], sample, &joint, &crossings);
+                done.crossings += crossings;
                 blend(&pixel, light);
                 done.fragments += 1u;
                 is_open = pixel.transmittance >= frame.termination;

@@ -53,11 +53,9 @@ fn draw_segment(place: u32, position: vec2<i32>) {
     if !sample.covered {
         return;
     }
-    let pieces = find_pieces_of(cell);
-    let optics = Optics(cell.reference, cell.scalars.x, cell.scalars.y, pieces.x, pieces.y);
     var carried = joint;
     var crossings = 0u;
-    let light = shade(cell, vertices, optics, sample, &carried, &crossings);
+    let light = shade(cell, vertices, optics_of(cell), sample, &carried, &crossings);
     joint = carried;
     var blended = pixel;
     blend(&blended, light);

@@ -43,18 +43,18 @@ fn is_in_picture(pixel: vec2<i32>) -> bool {
     return all(vec2<u32>(pixel) < frame.origin + frame.extent);
 }
 
-fn place_of(pixel: vec2<i32>) -> u32 {
+fn place_in_picture(pixel: vec2<i32>) -> u32 {
     let within = vec2<u32>(pixel) - frame.origin;
     return within.y * frame.extent.x + within.x;
 }
 
 fn load_pixel(pixel: vec2<i32>) -> Pixel {
-    let stored = bitcast<vec4<f32>>(picture[place_of(pixel)]);
+    let stored = bitcast<vec4<f32>>(picture[place_in_picture(pixel)]);
     return Pixel(stored.rgb, stored.a);
 }
 
 fn store_pixel(pixel: vec2<i32>, value: Pixel) {
-    picture[place_of(pixel)] = bitcast<vec4<u32>>(vec4<f32>(value.rgb, value.transmittance));
+    picture[place_in_picture(pixel)] = bitcast<vec4<u32>>(vec4<f32>(value.rgb, value.transmittance));
 }
 
 fn is_outside(outline: vec4<i32>, pixel: vec2<i32>) -> bool {

@@ -3,6 +3,7 @@
 mod device;
 mod error;
 mod kernel;
+mod lookups;
 
 #[cfg(test)]
 mod testing;
