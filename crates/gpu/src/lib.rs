@@ -3,9 +3,11 @@
 mod device;
 mod error;
 mod kernel;
+mod renderer;
 
 #[cfg(test)]
 mod testing;
 
 pub use device::{AdapterChoice, AdapterDescription, Gpu, adapters};
 pub use error::GpuError;
+pub use renderer::GpuRenderer;
