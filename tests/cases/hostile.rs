@@ -8,8 +8,8 @@ use std::path::{Path, PathBuf};
 
 use glam::DVec3;
 use tetrascope::{
-    Backend, Cells, Dataset, Error, LinearImage, Picture, SceneFile, Silent, UnstructuredCells, Volume, is_blank,
-    render_volume,
+    Backend, Cells, Choice, Dataset, Error, LinearImage, Picture, SceneFile, Silent, UnstructuredCells, Volume,
+    is_blank, render_volume,
 };
 use tetrascope_tests::pictures::{Worst, largest, mean_opacity};
 use tetrascope_tests::shared;
@@ -99,7 +99,7 @@ fn folder(test: &str) -> Option<PathBuf> {
 fn scene(backend: Backend) -> SceneFile {
     let mut scene = SceneFile::of_mesh("in memory");
     (scene.image.width, scene.image.height) = (SIDE, SIDE);
-    scene.quality.backend = backend;
+    scene.quality.backend = Choice::Named(backend);
     scene
 }
 

@@ -1,6 +1,6 @@
 //! Real meshes: what is in them, and both renderers on them.
 
-use tetrascope::{Backend, Picture, SceneFile, Silent, Volume, render_volume};
+use tetrascope::{Backend, Choice, Picture, SceneFile, Silent, Volume, render_volume};
 use tetrascope_tests::pictures::{Worst, largest, mean_opacity};
 use tetrascope_tests::shared;
 
@@ -67,7 +67,7 @@ fn real_meshes_look_the_same_to_both_renderers() {
         (scene.image.width, scene.image.height) = (64, 64);
         scene.mesh.field = case.field.map(str::to_owned);
         let mut draw = |backend| -> Picture {
-            scene.quality.backend = backend;
+            scene.quality.backend = Choice::Named(backend);
             render_volume(&volume, &scene, &Silent).unwrap()
         };
         let (fast, slow) = (draw(Backend::Cpu), draw(Backend::Reference));

@@ -89,7 +89,7 @@ fn draw_in(name: &str, backend: Backend, order: Choice<OrderMethod>) -> Option<(
     let text = std::fs::read_to_string(&path).unwrap();
     let mut scene = SceneFile::parse(&text, &path).unwrap();
     scene.quality.integration = Choice::Named(Integration::Exact);
-    (scene.quality.backend, scene.quality.order) = (backend, order);
+    (scene.quality.backend, scene.quality.order) = (Choice::Named(backend), order);
     let picture = render_scene(&scene, &folder, &Silent).unwrap();
     Some((picture.image, read_exr(&folder.join(format!("{name}.exr"))).unwrap()))
 }

@@ -4,8 +4,8 @@ use std::path::PathBuf;
 
 use clap::{Args, Parser, Subcommand};
 use tetrascope::{
-    Backend, Choice, CycleRemedy, Integration, IsosurfaceSection, LengthAxisName, OpticalModel, OrderMethod, Shading,
-    TableSettings,
+    Backend, Choice, CycleRemedy, GpuPath, Integration, IsosurfaceSection, LengthAxisName, OpticalModel, OrderMethod,
+    Shading, TableSettings, TargetBits,
 };
 
 /// Draws unstructured meshes as volumes.
@@ -28,6 +28,7 @@ const TOP_EXAMPLES: &str = "\
 Examples:
   tetrascope                               draw the built-in sample
   tetrascope info case.vtu                 what is in a file
+  tetrascope devices                       which graphics cards there are
   tetrascope check case.vtu                which visibility orders are right for it
   tetrascope render case.vtu               draw it, with defaults that fit any scale
   tetrascope render scene.toml -o a.png    draw what a scene file says
@@ -40,6 +41,8 @@ pub(crate) enum Command {
     Render(Box<RenderArgs>),
     /// Say what is in a mesh file and what is wrong with it.
     Info(InfoArgs),
+    /// List the graphics cards, and say which of them `--backend auto` draws with.
+    Devices(DevicesArgs),
     /// Say which visibility orders are right for a mesh, and where and by how much the others are wrong.
     Check(Box<CheckArgs>),
 }
@@ -217,9 +220,19 @@ pub(crate) struct RenderArgs {
     /// The largest error wanted in a channel, 0 to 1; it changes nothing yet, as auto takes the exact integration
     #[arg(long, value_name = "ERROR", help_heading = "Method")]
     pub(crate) max_error: Option<f64>,
-    /// cpu, or reference (64-bit, every ray against every cell: slow)
+    /// auto, cpu, gpu, or reference (64-bit, every ray against every cell: slow) [default: cpu]
     #[arg(long, value_name = "NAME", help_heading = "Method")]
-    pub(crate) backend: Option<Backend>,
+    pub(crate) backend: Option<Choice<Backend>>,
+    /// How a GPU makes pixels of cells, for --backend gpu and auto: auto, triangles, compute
+    #[arg(long, value_name = "NAME", help_heading = "Method")]
+    pub(crate) gpu_path: Option<Choice<GpuPath>>,
+    /// Bits of a channel that triangles are blended into, 16 or 32, for --gpu-path triangles [default: 32 where the
+    /// adapter blends them]
+    #[arg(long, value_name = "BITS", value_parser = target_bits, help_heading = "Method")]
+    pub(crate) target_bits: Option<u32>,
+    /// Part of the name of the GPU's adapter, or its number as `tetrascope devices` lists it [default: the fastest kind]
+    #[arg(long, value_name = "NAME", help_heading = "Method")]
+    pub(crate) adapter: Option<String>,
     /// Number of threads [default: one a core]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..), help_heading = "Method")]
     pub(crate) threads: Option<u16>,
@@ -230,6 +243,9 @@ pub(crate) struct RenderArgs {
     /// Report on standard output as one JSON object
     #[arg(long, help_heading = "Report")]
     pub(crate) json: bool,
+    /// Report also what memory of the device is used for, how long each stage took on it, and with which pipelines
+    #[arg(long, conflicts_with = "quiet", help_heading = "Report")]
+    pub(crate) explain: bool,
     /// Report nothing but warnings and errors
     #[arg(short, long, conflicts_with = "json", help_heading = "Report")]
     pub(crate) quiet: bool,
@@ -240,6 +256,17 @@ pub(crate) struct InfoArgs {
     /// A mesh file, or a PLOT3D grid and its solution
     #[arg(required = true, num_args = 1..=2, value_name = "FILE")]
     pub(crate) input: Vec<PathBuf>,
+    /// Report on standard output as one JSON object
+    #[arg(long)]
+    pub(crate) json: bool,
+}
+
+const DEVICES_NOTE: &str = "\
+`tetrascope render --adapter` takes a part of a name or a number from this list. Exit codes: 0 also where there is none, 2 wrong usage.";
+
+#[derive(Debug, Args)]
+#[command(after_help = DEVICES_NOTE)]
+pub(crate) struct DevicesArgs {
     /// Report on standard output as one JSON object
     #[arg(long)]
     pub(crate) json: bool,
@@ -330,6 +357,11 @@ fn length_axis(name: &str) -> Result<LengthAxisName, String> {
         "logarithmic" => Ok(LengthAxisName::Logarithmic),
         _ => Err("there are linear and logarithmic".to_owned()),
     }
+}
+
+fn target_bits(text: &str) -> Result<u32, String> {
+    let bits = text.parse().ok().filter(|&bits| TargetBits::of(bits).is_some());
+    bits.ok_or_else(|| "there are targets of 16 and 32 bits".to_owned())
 }
 
 fn table_size() -> clap::builder::RangedI64ValueParser<u32> {

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 
 use serde_json::{Value, json};
 use tetrascope::{
-    Backend, CycleRemedy, OrderCheck, OrderMethod, PixelDifference, Plan, ProjectionName, SceneFile, Volume,
+    Backend, Choice, CycleRemedy, OrderCheck, OrderMethod, PixelDifference, Plan, ProjectionName, SceneFile, Volume,
     VolumeField, resolve_path, seen_pixels, write_png,
 };
 
@@ -51,8 +51,8 @@ fn check(args: &CheckArgs, bar: &Bar) -> Result<Value, Failure> {
         (scene.image.width, scene.image.height) = (width, height);
     }
     // Orders are what is judged: the scene's own, and what goes with it, is not looked at.
-    scene.quality.backend = Backend::Cpu;
-    scene.quality.order = tetrascope::Choice::Auto;
+    scene.quality.replace_backend(Choice::Named(Backend::Cpu));
+    scene.quality.order = Choice::Auto;
     (scene.quality.slabs, scene.quality.window, scene.quality.cycles, scene.quality.keep_heights) =
         (None, None, None, None);
 

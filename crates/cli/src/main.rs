@@ -5,6 +5,7 @@
 
 mod args;
 mod check;
+mod devices;
 mod info;
 mod progress;
 mod render;
@@ -25,6 +26,7 @@ const fn help_of(command: Option<&Command>) -> &'static str {
         Some(Command::Render(_)) => "tetrascope render --help",
         Some(Command::Info(_)) => "tetrascope info --help",
         Some(Command::Check(_)) => "tetrascope check --help",
+        Some(Command::Devices(_)) => "tetrascope devices --help",
     }
 }
 
@@ -51,6 +53,7 @@ fn main() -> ExitCode {
         Some(Command::Render(args)) => render::run(args),
         Some(Command::Info(args)) => info::run(args),
         Some(Command::Check(args)) => check::run(args),
+        Some(Command::Devices(args)) => devices::run(args),
     };
     match done {
         Ok(()) => ExitCode::SUCCESS,

@@ -4,8 +4,8 @@ use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
 use tetrascope::{
-    CameraSection, Completed, IsosurfaceSection, Plan, ProjectionName, Rendered, SceneFile, Volume, VolumeField,
-    explain_blank, is_blank, resolve_path, warn_of_non_finite, write_image,
+    CameraSection, Choice, Completed, GpuPath, IsosurfaceSection, Plan, ProjectionName, Rendered, SceneFile, Volume,
+    VolumeField, explain_blank, is_blank, resolve_path, warn_of_non_finite, write_image,
 };
 
 use crate::Failure;
@@ -31,6 +31,7 @@ pub(crate) fn run(args: &RenderArgs) -> Result<(), Failure> {
         threads: args.threads.map(usize::from),
         quiet: args.quiet,
         json: args.json,
+        explain: args.explain,
     };
     job.run()
 }
@@ -49,6 +50,8 @@ pub(crate) struct Job<'a> {
     pub(crate) threads: Option<usize>,
     pub(crate) quiet: bool,
     pub(crate) json: bool,
+    /// Whether the device's memory, times and pipelines are told.
+    pub(crate) explain: bool,
 }
 
 impl Job<'_> {
@@ -88,8 +91,9 @@ impl Job<'_> {
 
         let rendered = field.render(&plan, bar)?;
         bar.clear();
-        report.rendered(&rendered, &plan, &field.order_worth(&plan, &rendered)?);
-        if let Some(warning) = field.keep_heights(&completed, &plan)? {
+        report.rendered(&rendered, &plan, &field.order_worth(&plan, &rendered));
+        report.device(&rendered, &plan, self.explain);
+        if let Some(warning) = field.keep_heights(&completed, &plan) {
             report.warn(&warning);
         }
         if let Some(warning) = warn_of_non_finite(&rendered.image) {
@@ -212,7 +216,16 @@ fn override_by_options(scene: &mut SceneFile, args: &RenderArgs) {
         quality.keep_heights = Some(true);
     }
     set_some(&mut quality.max_error, args.max_error.as_ref());
-    set(&mut quality.backend, args.backend.as_ref());
+    if let Some(backend) = args.backend {
+        quality.replace_backend(backend);
+    }
+    set_some(&mut quality.gpu_path, args.gpu_path.as_ref());
+    if args.gpu_path == Some(Choice::Named(GpuPath::Compute)) {
+        // It has no target; what the scene file has for the other path is no mistake.
+        quality.target_bits = None;
+    }
+    set_some(&mut quality.target_bits, args.target_bits.as_ref());
+    set_some(&mut quality.adapter, args.adapter.as_ref());
 }
 
 /// Refuses a target of the wrong kind or in a folder that is not there.

@@ -5,8 +5,8 @@ use std::time::Duration;
 
 use serde_json::{Map, Value, json};
 use tetrascope::{
-    Backend, Completed, CycleRemedy, Gradients, Integration, LengthAxis, OrderWorth, Plan, Projection, Rendered,
-    Volume, VolumeField, short,
+    Backend, BufferRole, Completed, CycleRemedy, DeviceReport, Gradients, Integration, LengthAxis, OrderWorth, Plan,
+    Projection, Rendered, TargetBits, Volume, VolumeField, short,
 };
 
 /// Collects what was done; people read it line by line as it happens, machines at the end.
@@ -88,14 +88,17 @@ impl Report {
             self.say("camera", &format!("from ({from}) to ({to}), {projection}"));
         }
         self.say("model", &plan.model.to_string());
-        for decision in &plan.decisions {
+        // Who draws has a line of its own.
+        for decision in plan.decisions.iter().filter(|decision| decision.subject != "backend") {
             let extra = if decision.subject == "camera" { format!(", {projection}") } else { String::new() };
             self.say(decision.subject, &format!("{}{extra}: {}", decision.choice, decision.reason));
         }
         let max_error = completed.file.quality.max_error.unwrap_or_default();
         let used = threads.unwrap_or_else(|| std::thread::available_parallelism().map_or(1, usize::from));
         let plural = if used == 1 { "" } else { "s" };
-        self.say("backend", &format!("{}, {used} thread{plural}", plan.backend));
+        let reason = plan.decisions.iter().find(|decision| decision.subject == "backend");
+        let reason = reason.map_or_else(String::new, |decision| format!(": {}", decision.reason));
+        self.say("backend", &format!("{}, {used} thread{plural}{reason}", plan.backend));
         let decisions: Vec<Value> = plan
             .decisions
             .iter()
@@ -114,7 +117,7 @@ impl Report {
         // The reference takes no order of cells: it sorts along every ray.
         let order = match plan.backend {
             Backend::Reference => "per-pixel".to_owned(),
-            Backend::Cpu => plan.order.to_string(),
+            Backend::Cpu | Backend::Gpu => plan.order.to_string(),
         };
         self.put("order", json!(order));
         self.put("cycles", json!(completed.file.quality.cycles.map(|remedy| remedy.to_string())));
@@ -171,6 +174,50 @@ impl Report {
         self.timings.extend(rendered.timings.iter().map(|(stage, time)| (stage.to_string(), *time)));
     }
 
+    /// The device that drew the picture; with `explain` what it was given to do, too.
+    pub(crate) fn device(&mut self, rendered: &Rendered, plan: &Plan, explain: bool) {
+        let Some(device) = &rendered.device else {
+            if explain {
+                let text = format!("the back end {} uses no device; its times are below", plan.backend);
+                self.say("explain", &text);
+            }
+            return;
+        };
+        let DeviceReport { name, driver, api, .. } = device;
+        self.say("device", &format!("{name} ({api}; {driver}), {}", path_of(device)));
+        for note in &device.notes {
+            self.say("", note);
+        }
+        let cells = rendered.counts.cells;
+        if explain {
+            for role in BufferRole::ALL.into_iter().filter(|role| device.bytes(*role) > 0) {
+                self.say("memory", &memory_of(device, role, cells));
+            }
+            if device.stages.is_empty() {
+                self.say("stages", "the device has no clock that could be read");
+            }
+            for (stage, time) in &device.stages {
+                self.say("stage", &format!("{stage} {}", seconds(*time)));
+            }
+            for pipeline in &device.pipelines {
+                self.say("pipeline", pipeline);
+            }
+        }
+        let buffers: Vec<Value> = device
+            .buffers
+            .iter()
+            .map(|buffer| json!({ "label": buffer.label, "role": buffer.role.to_string(), "bytes": buffer.bytes }))
+            .collect();
+        let stages: Vec<Value> =
+            device.stages.iter().map(|(stage, time)| json!({ "stage": stage, "secs": time.as_secs_f64() })).collect();
+        self.put(
+            "device",
+            json!({ "name": name, "driver": driver, "api": api, "path": device.path.to_string(),
+                "target_bits": device.target_bits.map(TargetBits::bits), "buffers": buffers, "stages": stages,
+                "pipelines": device.pipelines, "notes": device.notes }),
+        );
+    }
+
     /// The picture shows nothing, and why that may be.
     pub(crate) fn blank(&mut self, reasons: &[String]) {
         self.put("blank", json!(true));
@@ -218,6 +265,32 @@ fn drawn(rendered: &Rendered, plan: &Plan) -> String {
         return format!("{} tetrahedra and pieces, of {} tetrahedra", counts.drawn, counts.cells);
     }
     format!("{} of {} tetrahedra", counts.drawn, counts.cells)
+}
+
+/// How cells became pixels, and in which precision.
+fn path_of(device: &DeviceReport) -> String {
+    match device.target_bits {
+        Some(target) => format!("{} blended in {} bits", device.path, target.bits()),
+        None => format!("path {}", device.path),
+    }
+}
+
+/// Bytes of one role, a tetrahedron where they grow with the mesh, and what they are made of.
+fn memory_of(device: &DeviceReport, role: BufferRole, cells: u64) -> String {
+    let bytes = device.bytes(role);
+    let share = match role {
+        BufferRole::Mesh | BufferRole::Order | BufferRole::Frame => {
+            format!(", {} bytes a tetrahedron", short(bytes as f64 / cells.max(1) as f64))
+        }
+        BufferRole::Lookup => String::new(),
+    };
+    let parts: Vec<String> = device
+        .buffers
+        .iter()
+        .filter(|buffer| buffer.role == role)
+        .map(|buffer| format!("{} {}", buffer.label, buffer.bytes))
+        .collect();
+    format!("{role}: {bytes} bytes{share} ({})", parts.join(", "))
 }
 
 /// Sizes of the integration's table; null if it has none.

@@ -26,6 +26,7 @@ pub(crate) fn run() -> Result<(), Failure> {
         threads: None,
         quiet: false,
         json: false,
+        explain: false,
     }
     .run()?;
     line("\nTry next:");

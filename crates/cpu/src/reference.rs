@@ -165,7 +165,7 @@ fn render_here(mesh: &TetMesh, scalars: &[f64], plan: &Plan, progress: &dyn Prog
         most_held: 0,
     };
     let order = OrderReport { guarantee: Guarantee::Exact, rings: 0, rings_left: 0 };
-    Ok(Rendered { image, timings: watch.finish(), counts, order })
+    Ok(Rendered { image, timings: watch.finish(), counts, order, device: None })
 }
 
 impl Job<'_> {

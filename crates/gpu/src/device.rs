@@ -1,5 +1,6 @@
 //! Adapters, and the device that one of them gives.
 
+use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
 
 use wgpu::{Adapter, Backends, Device, Features, Instance, InstanceDescriptor, Limits, Queue};
@@ -49,6 +50,8 @@ pub struct Gpu {
     description: AdapterDescription,
     /// Why the device is gone, once it is.
     lost: Arc<Mutex<Option<String>>>,
+    /// Bytes of the buffers that the attempt under way asked for.
+    asked: AtomicU64,
 }
 
 /// An instance that reaches whatever there is, without a window.
@@ -150,7 +153,7 @@ impl Gpu {
         device.set_device_lost_callback(move |reason, message| {
             *told.lock().unwrap_or_else(PoisonError::into_inner) = Some(format!("{reason:?}, {message}"));
         });
-        Ok(Self { device, queue, description, lost })
+        Ok(Self { device, queue, description, lost, asked: AtomicU64::new(0) })
     }
 
     /// What it is.
@@ -161,6 +164,41 @@ impl Gpu {
     /// Why it is gone, if it is.
     pub(crate) fn lost(&self) -> Option<String> {
         self.lost.lock().unwrap_or_else(PoisonError::into_inner).clone()
+    }
+
+    /// Runs what is done for a frame, and says what the driver had against it.
+    ///
+    /// - `frame`: its number, for messages; 0 before the first
+    ///
+    /// # Errors
+    /// Those of `work`; [`GpuError::Lost`], [`GpuError::OutOfMemory`] and [`GpuError::Driver`], whatever `work` gave.
+    pub(crate) fn attempt<T>(&self, frame: u64, work: impl FnOnce() -> Result<T, GpuError>) -> Result<T, GpuError> {
+        self.asked.store(0, Ordering::Relaxed);
+        let scopes = [wgpu::ErrorFilter::Validation, wgpu::ErrorFilter::Internal, wgpu::ErrorFilter::OutOfMemory]
+            .map(|filter| self.device.push_error_scope(filter));
+        let done = work();
+        let adapter = self.description.name.clone();
+        let mut found = None;
+        // The last one first.
+        for scope in scopes.into_iter().rev() {
+            let error = pollster::block_on(scope.pop());
+            found = found.or(error);
+        }
+        if let Some(problem) = self.lost() {
+            return Err(GpuError::Lost { adapter, frame, problem });
+        }
+        match found {
+            None => done,
+            Some(wgpu::Error::OutOfMemory { .. }) => {
+                Err(GpuError::OutOfMemory { adapter, needed: self.asked.load(Ordering::Relaxed) })
+            }
+            Some(error) => Err(GpuError::Driver { adapter, frame, problem: error.to_string() }),
+        }
+    }
+
+    /// Notes bytes of a buffer.
+    pub(crate) fn asks_for(&self, bytes: u64) {
+        self.asked.fetch_add(bytes, Ordering::Relaxed);
     }
 
     /// Bytes that one binding may have on this device.

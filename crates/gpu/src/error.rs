@@ -7,6 +7,9 @@ use tetrascope_shaders::ShaderError;
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum GpuError {
+    /// The plan or the scalars, for a reason that has nothing to do with the device.
+    #[error(transparent)]
+    Plan(#[from] tetrascope_scene::PlanError),
     /// No adapter is there, or none that can draw.
     #[error("no graphics adapter was found ({problem}); install its driver, or use the back end \"cpu\"")]
     NoAdapter {

@@ -97,6 +97,7 @@ pub(crate) fn spread(groups: u32) -> [u32; 2] {
 impl Gpu {
     /// A buffer of so many bytes, zeros; at least one that can be bound.
     pub(crate) fn buffer(&self, label: &str, bytes: u64, usage: BufferUsages) -> Buffer {
+        self.asks_for(bytes);
         self.device.create_buffer(&wgpu::BufferDescriptor {
             label: Some(label),
             size: bytes.max(16).next_multiple_of(16),

@@ -56,6 +56,18 @@ impl TetMesh {
         &self.tetrahedra
     }
 
+    /// The tetrahedra with the points of each in ascending order, which says nothing of their orientation.
+    ///
+    /// Neighbors then have the points of a shared face in the same order, so that what is computed of it is the same from both sides.
+    pub fn ascending_tetrahedra(&self) -> Vec<[VertexId; 4]> {
+        let ascending = |tetrahedron: &[VertexId; 4]| {
+            let mut sorted = *tetrahedron;
+            sorted.sort_unstable();
+            sorted
+        };
+        self.tetrahedra.par_iter().map(ascending).collect()
+    }
+
     /// For every tetrahedron the index of the dataset's cell that it was cut from.
     pub fn source_cells(&self) -> &[u32] {
         &self.source_cells

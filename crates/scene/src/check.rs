@@ -4,7 +4,7 @@ use tetrascope_integrate::Integration;
 use tetrascope_mesh::TetMesh;
 use tetrascope_order::{CycleRemedy, PixelSort};
 
-use crate::{IsosurfaceMethod, Mixing, Plan};
+use crate::{GpuPath, IsosurfaceMethod, Mixing, Plan};
 
 /// Why a plan is not drawn, whichever back end is asked.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -63,6 +63,18 @@ pub enum PlanError {
     /// A k-buffer that holds nothing back has nothing to blend.
     #[error("a \"k-buffer\" with a window of 0 cells holds nothing; ask for 1 or more")]
     EmptyWindow,
+    /// The GPU draws whole cells.
+    #[error(
+        "the back end \"gpu\" draws whole cells, and the remedy \"cut\" for cycles leaves pieces; use the remedy \"per-pixel\", or the back \
+         end \"cpu\""
+    )]
+    CutOnGpu,
+    /// Only triangles have corners whose colors could be interpolated.
+    #[error(
+        "\"vertex\" integrates a fan of triangles, which the path \"compute\" of the back end \"gpu\" does not have; use the path \
+         \"triangles\", or another integration"
+    )]
+    FanOnComputePath,
 }
 
 impl Plan {
@@ -93,6 +105,20 @@ impl Plan {
             }
             _ => Ok(()),
         }
+    }
+
+    /// Checks what the back end `gpu` cannot do, besides what [`Self::check`] looks at. The plan's back end is not looked at.
+    ///
+    /// # Errors
+    /// [`PlanError::CutOnGpu`] and [`PlanError::FanOnComputePath`].
+    pub fn check_on_gpu(&self) -> Result<(), PlanError> {
+        if self.cycles == CycleRemedy::Cut {
+            return Err(PlanError::CutOnGpu);
+        }
+        if self.integration.needs_fan() && self.gpu.path == Some(GpuPath::Compute) {
+            return Err(PlanError::FanOnComputePath);
+        }
+        Ok(())
     }
 }
 

@@ -9,9 +9,11 @@ use tetrascope_view::{Camera, Projection};
 
 use crate::file::{Choice, ProjectionName, QualitySection, SceneFile};
 use crate::text::short;
-use crate::{Backend, Decision, MeshFacts, Scene, SceneError, defaults};
+use crate::{Backend, Decision, GpuOptions, MeshFacts, Scene, SceneError, defaults};
 
-use quality::{drop_what_the_order_has_not, fill_cycles, fill_isosurface_method, fill_order, fill_tables, finds_rings};
+use quality::{
+    drop_what_the_order_has_not, fill_cycles, fill_gpu, fill_isosurface_method, fill_order, fill_tables, finds_rings,
+};
 use surfaces::{fill_isosurfaces, fill_light};
 
 /// The largest error wanted in a channel when a scene does not say: one step of 8 bits.
@@ -37,7 +39,35 @@ impl Completed {
     ///
     /// [`Scene::plan`] then takes `bsp-xmpvo`, which is right for every mesh; a cheaper one may be right for this one.
     pub fn leaves_order_open(&self) -> bool {
-        self.scene.order.is_none() && self.scene.backend == Backend::Cpu && !self.scene.commutes()
+        self.scene.order.is_none() && self.scene.backend != Some(Backend::Reference) && !self.scene.commutes()
+    }
+
+    /// Whether the back end is still open: the scene leaves it to the machine.
+    ///
+    /// [`Scene::plan`] then takes the CPU, which every machine has.
+    pub const fn leaves_backend_open(&self) -> bool {
+        self.scene.backend.is_none()
+    }
+
+    /// Gives a back end that was left open its name, in the scene and in the file, with the reason.
+    ///
+    /// What the scene asks of a GPU is dropped, with no word, if another back end is taken.
+    ///
+    /// # Errors
+    /// Those of [`Scene::plan`] with this back end.
+    pub fn settle_backend(&mut self, backend: Backend, reason: &str) -> Result<(), SceneError> {
+        self.scene.backend = Some(backend);
+        self.file.quality.backend = Choice::Named(backend);
+        if backend != Backend::Gpu {
+            self.scene.gpu = GpuOptions::default();
+            let quality = &mut self.file.quality;
+            (quality.gpu_path, quality.target_bits, quality.adapter) = (None, None, None);
+        }
+        self.decisions.push(Decision::new("backend", backend.to_string(), reason));
+        // What the back end brings with it, and no other decision, is new.
+        let said = self.scene.plan()?.decisions.into_iter().filter(|decision| decision.subject == "path");
+        self.decisions.extend(said);
+        Ok(())
     }
 
     /// Gives an order that was left open its name, in the scene and in the file, with the reason.
@@ -110,7 +140,11 @@ impl SceneFile {
             tables: None,
             order,
             cycles: CycleRemedy::Report,
-            backend: file.quality.backend,
+            backend: match file.quality.backend {
+                Choice::Auto => None,
+                Choice::Named(backend) => Some(backend),
+            },
+            gpu: fill_gpu(&mut file.quality, &mut warnings)?,
             threads: None,
         };
         scene.tables = fill_tables(&mut file.quality, scene.chosen_integration().0, &mut warnings);

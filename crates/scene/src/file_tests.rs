@@ -64,6 +64,9 @@ isosurfaces = "map-smooth"
 map_size = 100
 max_error = 0.01
 backend = "reference"
+gpu_path = "triangles"
+target_bits = 16
+adapter = "llvmpipe"
 "#;
 
 fn toml(text: &str) -> SceneFile {
@@ -85,7 +88,7 @@ fn every_key_is_accepted() {
     assert_eq!(scene.isosurface.len(), 2);
     assert_eq!(scene.isosurface[1].opacity, 1.0);
     assert_eq!(scene.quality.order, Choice::Named("bucket".parse::<OrderMethod>().unwrap()));
-    assert_eq!(scene.quality.backend, Backend::Reference);
+    assert_eq!(scene.quality.backend, Choice::Named(Backend::Reference));
 }
 
 #[test]
@@ -145,7 +148,10 @@ fn wrong_values_are_named_with_key_and_line() {
         ("quality", "window", "-1", "u32"),
         ("quality", "cycles", "\"ignore\"", "report, cut or per-pixel"),
         ("quality", "keep_heights", "1", "boolean"),
-        ("quality", "backend", "\"gpu\"", "cpu and reference"),
+        ("quality", "backend", "\"cuda\"", "cpu, gpu and reference"),
+        ("quality", "gpu_path", "\"mesh\"", "triangles and compute"),
+        ("quality", "target_bits", "\"half\"", "u32"),
+        ("quality", "adapter", "0", "string"),
         ("light", "direction", "\"sun\"", "headlight"),
         ("light", "direction", "[0, 1]", "headlight"),
         ("light", "volume", "1", "boolean"),

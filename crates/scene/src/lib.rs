@@ -30,6 +30,7 @@
 //! Limits: surfaces from files and color map files are read and refused by name. The crate opens no file and draws
 //! nothing. Without the feature `file` it needs no serde and is the plan, the scene and the fields alone.
 
+mod backend;
 mod blank;
 mod check;
 #[cfg(feature = "file")]
@@ -48,6 +49,7 @@ mod rendered;
 mod scene;
 mod text;
 
+pub use backend::{Backend, GpuOptions, GpuPath, TargetBits, UnknownBackend, UnknownGpuPath};
 pub use blank::explain_blank;
 pub use check::{PlanError, check_scalars};
 #[cfg(feature = "file")]
@@ -65,10 +67,9 @@ pub use finite::{FieldOnMesh, place_on_mesh};
 #[cfg(feature = "file")]
 pub use parse::{Position, SceneSyntaxError, WriteSceneError};
 pub use plan::{
-    Backend, Decision, Gradients, IsosurfaceMethod, IsosurfacePlan, Lighting, Mixing, Plan, Progress, Silent, Stage,
-    UnknownBackend,
+    Decision, Gradients, IsosurfaceMethod, IsosurfacePlan, Lighting, Mixing, Plan, Progress, Silent, Stage,
 };
-pub use rendered::{Counts, OrderReport, Rendered, Stopwatch};
+pub use rendered::{BufferRole, Counts, DeviceBuffer, DeviceReport, OrderReport, Rendered, Stopwatch};
 pub use scene::Scene;
 pub use text::short;
 
@@ -78,6 +79,8 @@ mod defaults_tests;
 mod field_tests;
 #[cfg(all(test, feature = "file"))]
 mod file_tests;
+#[cfg(all(test, feature = "file"))]
+mod gpu_tests;
 #[cfg(all(test, feature = "file"))]
 mod order_tests;
 #[cfg(all(test, feature = "file"))]

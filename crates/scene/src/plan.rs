@@ -1,7 +1,6 @@
 //! The plan: everything that a back end needs to draw one picture, and why each choice was made.
 
 use std::fmt;
-use std::str::FromStr;
 
 use glam::DVec3;
 use tetrascope_integrate::{
@@ -9,6 +8,8 @@ use tetrascope_integrate::{
 };
 use tetrascope_order::{CycleRemedy, OrderMethod};
 use tetrascope_view::View;
+
+use crate::{Backend, GpuOptions};
 
 /// What is to be computed for one picture: numbers and methods, no file names and no "auto".
 ///
@@ -38,6 +39,8 @@ pub struct Plan {
     pub cycles: CycleRemedy,
     /// Who computes.
     pub backend: Backend,
+    /// What a scene asks of the GPU; without meaning for the other back ends.
+    pub gpu: GpuOptions,
     /// Number of threads; `None` leaves it to the back end, which takes one a core.
     pub threads: Option<usize>,
     /// Transmittance, 0 to 1, below which a back end that goes front to back may end a pixel; 0 never ends one early.
@@ -145,6 +148,7 @@ impl Plan {
             order: OrderMethod::Centroid,
             cycles: CycleRemedy::Report,
             backend: Backend::Cpu,
+            gpu: GpuOptions::default(),
             threads: None,
             termination: 0.0,
             decisions: Vec::new(),
@@ -196,50 +200,6 @@ impl Decision {
 impl fmt::Display for Decision {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{}: {} ({})", self.subject, self.choice, self.reason)
-    }
-}
-
-/// Who computes the picture.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-pub enum Backend {
-    /// Projected tetrahedra on all cores, 32-bit floats per pixel.
-    #[default]
-    Cpu,
-    /// Every pixel's ray against every tetrahedron in 64-bit floats: slow, and what the others are compared with. It
-    /// orders the cells along each ray by itself and takes no [`OrderMethod`].
-    Reference,
-}
-
-impl Backend {
-    /// All back ends.
-    pub const ALL: [Self; 2] = [Self::Cpu, Self::Reference];
-}
-
-impl fmt::Display for Backend {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(match self {
-            Self::Cpu => "cpu",
-            Self::Reference => "reference",
-        })
-    }
-}
-
-/// A name that is none of the back ends'.
-#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("there is no back end named \"{name}\"; there are cpu and reference")]
-pub struct UnknownBackend {
-    /// The name.
-    pub name: String,
-}
-
-impl FromStr for Backend {
-    type Err = UnknownBackend;
-
-    fn from_str(name: &str) -> Result<Self, Self::Err> {
-        Self::ALL
-            .into_iter()
-            .find(|backend| backend.to_string() == name)
-            .ok_or_else(|| UnknownBackend { name: name.to_owned() })
     }
 }
 

@@ -1,11 +1,12 @@
 //! A picture, and what it took.
 
+use std::fmt;
 use std::time::{Duration, Instant};
 
 use tetrascope_order::Guarantee;
 use tetrascope_view::LinearImage;
 
-use crate::Stage;
+use crate::{GpuPath, Stage, TargetBits};
 
 /// A picture, and what it took.
 #[derive(Clone, Debug)]
@@ -18,6 +19,78 @@ pub struct Rendered {
     pub counts: Counts,
     /// How far the order can be trusted in which cells were blended.
     pub order: OrderReport,
+    /// The device that drew it; `None` for back ends that need none.
+    pub device: Option<DeviceReport>,
+}
+
+/// What a device was, and what it was given to do.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct DeviceReport {
+    /// As its driver calls it.
+    pub name: String,
+    /// Name and version of the driver.
+    pub driver: String,
+    /// Through what it is reached: `vulkan`, `metal`, `dx12`, `gl`.
+    pub api: String,
+    /// How cells became pixels.
+    pub path: GpuPath,
+    /// Bits of a channel of the target, where triangles were blended.
+    pub target_bits: Option<TargetBits>,
+    /// Memory of the device in use for the picture.
+    pub buffers: Vec<DeviceBuffer>,
+    /// Time of each stage as the device measured it, in the order in which they ran; empty where it has no clock.
+    pub stages: Vec<(String, Duration)>,
+    /// The variants of pipelines that drew it.
+    pub pipelines: Vec<String>,
+    /// What else is worth knowing, in sentences.
+    pub notes: Vec<String>,
+}
+
+impl DeviceReport {
+    /// Bytes of all buffers of one role.
+    pub fn bytes(&self, role: BufferRole) -> u64 {
+        self.buffers.iter().filter(|buffer| buffer.role == role).map(|buffer| buffer.bytes).sum()
+    }
+}
+
+/// Memory of a device in use for a picture.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct DeviceBuffer {
+    /// What is in it.
+    pub label: String,
+    /// What it is kept for.
+    pub role: BufferRole,
+    /// Bytes.
+    pub bytes: u64,
+}
+
+/// What memory of a device is kept for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum BufferRole {
+    /// Mesh and field: as long as these are drawn.
+    Mesh,
+    /// The visibility order.
+    Order,
+    /// Lookups of the transfer function and the isosurfaces: until these change.
+    Lookup,
+    /// One frame.
+    Frame,
+}
+
+impl BufferRole {
+    /// All roles, those that last longest first.
+    pub const ALL: [Self; 4] = [Self::Mesh, Self::Order, Self::Lookup, Self::Frame];
+}
+
+impl fmt::Display for BufferRole {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Mesh => "mesh and field",
+            Self::Order => "order",
+            Self::Lookup => "lookups",
+            Self::Frame => "frame",
+        })
+    }
 }
 
 /// How far the order of a picture can be trusted.

@@ -1,5 +1,6 @@
 //! A scene with nothing left open, and the plan that follows from it.
 
+mod gpu;
 mod light;
 mod methods;
 mod order;
@@ -8,7 +9,7 @@ use tetrascope_integrate::{Integration, Isosurface, Isosurfaces, OpticalModel, T
 use tetrascope_order::{CycleRemedy, OrderMethod};
 use tetrascope_view::{Camera, View};
 
-use crate::{Backend, Decision, IsosurfaceMethod, IsosurfacePlan, Lighting, Plan, SceneError};
+use crate::{Backend, Decision, GpuOptions, IsosurfaceMethod, IsosurfacePlan, Lighting, Plan, SceneError};
 
 /// Everything one picture depends on besides mesh and field, as numbers.
 #[derive(Clone, Debug, PartialEq)]
@@ -41,8 +42,10 @@ pub struct Scene {
     pub order: Option<OrderMethod>,
     /// What is done about cells that hide one another in rings.
     pub cycles: CycleRemedy,
-    /// Who computes.
-    pub backend: Backend,
+    /// Who computes; `None` leaves it to [`Scene::plan`], which knows no device and takes the CPU.
+    pub backend: Option<Backend>,
+    /// What is asked of the GPU.
+    pub gpu: GpuOptions,
     /// Number of threads; `None` leaves it to the back end.
     pub threads: Option<usize>,
 }
@@ -70,6 +73,7 @@ impl Scene {
         let (integration, tables) = self.decide_integration(&mut decisions)?;
         self.check_isosurface_method(integration, isosurfaces.as_ref())?;
         self.check_cycles(integration)?;
+        self.check_gpu(integration)?;
         self.decide_isosurfaces(isosurfaces.as_ref(), &mut decisions);
         let order = self.decide_order(&mut decisions)?;
         let plan = Plan {
@@ -83,7 +87,8 @@ impl Scene {
             lighting,
             order,
             cycles: self.cycles,
-            backend: self.backend,
+            backend: self.backend.unwrap_or_default(),
+            gpu: self.gpu_options(integration, &mut decisions),
             threads: self.threads,
             termination: Self::TERMINATION,
             decisions,

@@ -127,7 +127,7 @@ impl VolumeField<'_> {
         let faces = joined + adjacency.boundary_faces().len() + adjacency.non_manifold_faces().len();
         let is_convex = visibility.is_convex(cells);
         let known = visibility.quick_certificate(cells);
-        let delaunay = if self.made.get().is_some_and(|made| made.has_read_heights) {
+        let delaunay = if self.made.known.get().is_some_and(|known| known.has_read_heights) {
             // What is known is of those heights.
             let squares = Power::with_adjacency(cells, adjacency, Budget { visits_per_face: 0 });
             squares.prove_gaps(cells, adjacency, is_convex).certificate()

@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 
 use tetrascope_cpu::RenderError;
+use tetrascope_gpu::GpuError;
 use tetrascope_io::IoError;
 use tetrascope_mesh::MeshError;
 use tetrascope_scene::{FieldError, SceneError, SceneSyntaxError, WriteSceneError};
@@ -42,6 +43,9 @@ pub enum Error {
     /// The back end gave no picture.
     #[error("{0}")]
     Render(#[from] RenderError),
+    /// The GPU gave no picture.
+    #[error(transparent)]
+    Gpu(#[from] GpuError),
     /// A mesh that is built in goes by another name.
     #[error("there is no built-in mesh \"{}\"; there is {}", name.display(), crate::SAMPLE)]
     NoSuchSample {

@@ -3,11 +3,11 @@
 use std::path::PathBuf;
 use std::sync::Arc;
 
-use tetrascope_cpu::CpuRenderer;
 use tetrascope_io::{IoError, read_heights, write_heights};
+use tetrascope_order::{Cells, MeshVisibility};
 use tetrascope_scene::{Backend, Completed, Plan};
 
-use crate::volume::Made;
+use crate::made::Known;
 use crate::{Error, VolumeField};
 
 impl VolumeField<'_> {
@@ -18,9 +18,9 @@ impl VolumeField<'_> {
         Some(PathBuf::from(path))
     }
 
-    /// Makes the renderer with the heights that were kept, if there are any and they are proven; a warning if they do not fit.
+    /// Takes the heights that were kept, if there are any and they are proven; a warning if they do not fit.
     pub(crate) fn read_heights(&self) -> Result<Option<String>, Error> {
-        if self.made.get().is_some() {
+        if self.made.known.get().is_some() {
             return Ok(None);
         }
         let Some(path) = self.heights_path() else {
@@ -31,16 +31,17 @@ impl VolumeField<'_> {
             Err(IoError::Read { source, .. }) if source.kind() == std::io::ErrorKind::NotFound => return Ok(None),
             Err(error) => return Ok(Some(format!("{error}. New heights are looked for"))),
         };
-        let (mesh, scalars) = (self.on_mesh.mesh.as_ref(), self.on_mesh.scalars.as_slice());
-        let (count, points) = (heights.len(), mesh.positions().len());
+        let (count, points) = (heights.len(), self.mesh().positions().len());
         if count != points {
             return Ok(Some(format!(
                 "{} has {count} heights for {points} points: it is of another mesh. New heights are looked for",
                 path.display()
             )));
         }
-        let renderer = CpuRenderer::with_heights(mesh, scalars, heights)?;
-        let certificate = renderer.visibility().quick_certificate(renderer.cells());
+        let visibility = MeshVisibility::with_heights(heights);
+        let tetrahedra = self.mesh().ascending_tetrahedra();
+        let cells = Cells { positions: self.mesh().positions(), tetrahedra: &tetrahedra };
+        let certificate = visibility.quick_certificate(cells);
         if !certificate.is_exact() {
             return Ok(Some(format!(
                 "{}: its heights do not order this mesh ({} of {} faces are violated): it is of another mesh. New heights are looked for",
@@ -49,7 +50,7 @@ impl VolumeField<'_> {
                 certificate.faces
             )));
         }
-        self.made.get_or_init(|| Made { renderer: Arc::new(renderer), has_read_heights: true });
+        self.made.known.get_or_init(|| Known { visibility: Arc::new(visibility), has_read_heights: true });
         Ok(None)
     }
 
@@ -57,28 +58,25 @@ impl VolumeField<'_> {
     /// again. A warning if none are proven, or if the file cannot be written.
     ///
     /// Proven is what [`PowerCertificate::is_exact`](tetrascope_order::PowerCertificate::is_exact) says; gaps of the mesh may stay open.
-    ///
-    /// # Errors
-    /// [`Error::Render`] as [`Self::renderer`].
-    pub fn keep_heights(&self, completed: &Completed, plan: &Plan) -> Result<Option<String>, Error> {
+    pub fn keep_heights(&self, completed: &Completed, plan: &Plan) -> Option<String> {
         let is_asked = completed.file.quality.keep_heights == Some(true);
-        if !is_asked || plan.backend != Backend::Cpu {
-            return Ok(None);
+        if !is_asked || plan.backend == Backend::Reference {
+            return None;
         }
-        let renderer = self.renderer()?;
-        let (Some(heights), Some(path)) = (renderer.visibility().found_heights(), self.heights_path()) else {
-            return Ok(None);
+        let visibility = self.visibility();
+        let (Some(heights), Some(path)) = (visibility.found_heights(), self.heights_path()) else {
+            return None;
         };
-        let certificate = renderer.visibility().power(renderer.cells()).certificate();
+        let certificate = visibility.power(self.cells()).certificate();
         if !certificate.is_exact() {
-            return Ok(Some(format!(
+            return Some(format!(
                 "no heights were found that order this mesh ({} of {} faces between cells are not proven, and {} cells are too thin for \
                  their key), and none are kept: quality.keep_heights has them looked for every time",
                 certificate.violated + certificate.folded + certificate.flat,
                 certificate.faces,
                 certificate.imprecise
-            )));
+            ));
         }
-        Ok(write_heights(&path, heights).err().map(|error| format!("{error}. The heights are not kept")))
+        write_heights(&path, heights).err().map(|error| format!("{error}. The heights are not kept"))
     }
 }

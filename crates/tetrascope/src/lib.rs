@@ -26,16 +26,19 @@
 //! ([`Table2d`], [`Table3d`], [`IsosurfaceMap`], [`SmoothMaps`]), and how far a way is from the exact light
 //! ([`deviation()`]).
 //!
-//! Limits: the back ends are the CPU's; surfaces from files and color map files are not there yet and refused by name.
+//! Limits: surfaces from files and color map files are not there yet and refused by name.
 
+mod backend;
 mod check;
 mod error;
 mod heights;
+mod made;
 mod order_worth;
 mod render;
 mod threads;
 mod volume;
 
+pub use backend::adapter_of_auto;
 pub use check::{MeshCheck, OrderCheck, PixelDifference, compare_pictures, seen_pixels};
 pub use error::Error;
 pub use order_worth::OrderWorth;
@@ -43,6 +46,7 @@ pub use render::{Picture, is_blank, render_scene, render_volume, warn_of_non_fin
 pub use volume::{SAMPLE, Volume, VolumeField, is_builtin, resolve_path};
 
 pub use tetrascope_cpu::{CpuRenderer, RenderError, reference};
+pub use tetrascope_gpu::{AdapterChoice, AdapterDescription, Gpu, GpuError, GpuRenderer, adapters};
 pub use tetrascope_integrate::{
     Crossing, Deviation, Integration, Integrator, Isosurface, IsosurfaceError, IsosurfaceMap, Isosurfaces, LengthAxis,
     MethodError, OpticalModel, Phong, PhongError, PsiTable, RgbaAssoc, RunningIntegrals, ScalarAxis, Segment,
@@ -60,17 +64,19 @@ pub use tetrascope_order::{
     CycleRemedy, Guarantee, MeshVisibility, OrderChoice, OrderMethod, Overlaps, PowerCertificate, Relations, Verdict,
 };
 pub use tetrascope_scene::{
-    ArraySummary, Association, Backend, CameraSection, Choice, Completed, Counts, Decision, Field, FieldError,
-    FieldOnMesh, Gradients, IsosurfaceMethod, IsosurfaceMethodName, IsosurfacePlan, IsosurfaceSection, LengthAxisName,
-    LightDirection, LightName, LightSection, Lighting, MeshFacts, Mixing, OrderReport, Plan, PlanError, Progress,
-    ProjectionName, Rendered, Scene, SceneError, SceneFile, SceneSyntaxError, Shading, Silent, Stage, explain_blank,
-    select_field, short, summarize_arrays,
+    ArraySummary, Association, Backend, BufferRole, CameraSection, Choice, Completed, Counts, Decision, DeviceBuffer,
+    DeviceReport, Field, FieldError, FieldOnMesh, GpuOptions, GpuPath, Gradients, IsosurfaceMethod,
+    IsosurfaceMethodName, IsosurfacePlan, IsosurfaceSection, LengthAxisName, LightDirection, LightName, LightSection,
+    Lighting, MeshFacts, Mixing, OrderReport, Plan, PlanError, Progress, ProjectionName, Rendered, Scene, SceneError,
+    SceneFile, SceneSyntaxError, Shading, Silent, Stage, TargetBits, explain_blank, select_field, short,
+    summarize_arrays,
 };
 pub use tetrascope_view::{Camera, LinearImage, Projection, View, ViewError};
 
 pub use {
-    tetrascope_classify as classify, tetrascope_cpu as cpu, tetrascope_integrate as integrate, tetrascope_io as io,
-    tetrascope_mesh as mesh, tetrascope_order as order, tetrascope_scene as scene, tetrascope_view as view,
+    tetrascope_classify as classify, tetrascope_cpu as cpu, tetrascope_gpu as gpu, tetrascope_integrate as integrate,
+    tetrascope_io as io, tetrascope_mesh as mesh, tetrascope_order as order, tetrascope_scene as scene,
+    tetrascope_view as view,
 };
 
 #[cfg(test)]

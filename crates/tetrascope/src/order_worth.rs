@@ -18,32 +18,39 @@ pub struct OrderWorth {
 }
 
 impl VolumeField<'_> {
-    /// The plan of a completed scene for this mesh: an order that the scene leaves open is settled, in `completed` too.
+    /// The plan of a completed scene for this mesh: an order and a back end that the scene leaves open are settled, in
+    /// `completed` too.
     ///
     /// What is learned of the mesh for that (whether it is convex, whether it is Delaunay) is kept for the pictures. If the scene says so, heights
-    /// are read from the file beside the mesh, provided that the renderer is not made yet; where they do not fit, `completed` has a
+    /// are read from the file beside the mesh, provided that nothing is known of the mesh yet; where they do not fit, `completed` has a
     /// warning.
     ///
     /// # Errors
     /// [`Error::Scene`] as [`Scene::plan`](tetrascope_scene::Scene::plan), [`Error::Render`] as [`Self::renderer`].
     pub fn plan(&self, completed: &mut Completed) -> Result<Plan, Error> {
-        on_threads(completed.scene.threads, || self.settle(completed))??;
+        on_threads(completed.scene.threads, || {
+            self.settle_backend(completed)?;
+            self.settle_order(completed)
+        })??;
         let mut plan = completed.scene.plan()?;
         plan.decisions.clone_from(&completed.decisions);
         Ok(plan)
     }
 
     /// Reads heights that were kept, and settles an order that was left open.
-    fn settle(&self, completed: &mut Completed) -> Result<(), Error> {
+    fn settle_order(&self, completed: &mut Completed) -> Result<(), Error> {
         let keeps_heights = completed.file.quality.keep_heights == Some(true);
         let is_open = completed.leaves_order_open();
         let has_use = is_open || completed.scene.order == Some(OrderMethod::Power);
-        if keeps_heights && has_use && completed.scene.backend == Backend::Cpu {
+        if keeps_heights && has_use && completed.scene.backend != Some(Backend::Reference) {
             completed.warnings.extend(self.read_heights()?);
         }
         if is_open {
-            let renderer = self.renderer()?;
-            let (cells, visibility) = (renderer.cells(), renderer.visibility());
+            if completed.scene.backend != Some(Backend::Gpu) {
+                // It will be needed, and has the cells.
+                self.renderer()?;
+            }
+            let (cells, visibility) = (self.cells(), self.visibility());
             if keeps_heights && self.heights_path().is_some() {
                 // Looking for heights takes longer than many frames; those that are kept are looked for once.
                 visibility.power(cells);
@@ -55,21 +62,17 @@ impl VolumeField<'_> {
     }
 
     /// What the order of a picture of this field was worth.
-    ///
-    /// # Errors
-    /// [`Error::Render`] as [`Self::renderer`].
-    pub fn order_worth(&self, plan: &Plan, rendered: &Rendered) -> Result<OrderWorth, Error> {
+    pub fn order_worth(&self, plan: &Plan, rendered: &Rendered) -> OrderWorth {
         let mut worth = OrderWorth::default();
         if plan.commutes() {
             "nothing depends on the order".clone_into(&mut worth.summary);
-            return Ok(worth);
+            return worth;
         }
         if plan.backend == Backend::Reference {
             "exact: sorted along every ray".clone_into(&mut worth.summary);
-            return Ok(worth);
+            return worth;
         }
-        let renderer = self.renderer()?;
-        let (cells, visibility) = (renderer.cells(), renderer.visibility());
+        let (cells, visibility) = (self.cells(), self.visibility());
         let across_gaps = "; the mesh is not convex, and across its gaps the order is a guess";
         worth.summary = match plan.order {
             OrderMethod::PerPixel if visibility.known_overlaps().is_some_and(|overlaps| overlaps.any()) => {
@@ -110,7 +113,7 @@ impl VolumeField<'_> {
         if rendered.order.rings > 0 {
             worth.rings = Some(rings(plan.cycles, rendered));
         }
-        Ok(worth)
+        worth
     }
 }
 

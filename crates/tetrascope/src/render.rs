@@ -4,7 +4,7 @@ use std::path::Path;
 use std::time::{Duration, Instant};
 
 use tetrascope_io::write_image;
-use tetrascope_scene::{Counts, Plan, Progress, SceneFile, explain_blank};
+use tetrascope_scene::{Counts, DeviceReport, Plan, Progress, SceneFile, explain_blank};
 use tetrascope_view::LinearImage;
 
 use crate::{Error, OrderWorth, Volume, resolve_path};
@@ -26,6 +26,8 @@ pub struct Picture {
     pub counts: Counts,
     /// What the order of its cells was worth.
     pub order: OrderWorth,
+    /// The device that drew it, if one did.
+    pub device: Option<DeviceReport>,
 }
 
 impl Picture {
@@ -62,8 +64,8 @@ pub fn render_volume(volume: &Volume, scene: &SceneFile, progress: &dyn Progress
     let plan = field.plan(&mut completed)?;
     let chosen = start.elapsed();
     let rendered = field.render(&plan, progress)?;
-    let order = field.order_worth(&plan, &rendered)?;
-    completed.warnings.extend(field.keep_heights(&completed, &plan)?);
+    let order = field.order_worth(&plan, &rendered);
+    completed.warnings.extend(field.keep_heights(&completed, &plan));
 
     let mut warnings = volume.warnings.clone();
     warnings.extend(volume.decomposition.counts.findings());
@@ -86,6 +88,7 @@ pub fn render_volume(volume: &Volume, scene: &SceneFile, progress: &dyn Progress
         timings: steps.chain([("choose".to_owned(), chosen)]).chain(stages).collect(),
         counts: rendered.counts,
         order,
+        device: rendered.device,
     })
 }
 

@@ -24,7 +24,7 @@ fn both_back_ends_draw_the_same_sample() {
         let mut scene = small_scene();
         scene.optics.model = model;
         let fast = render_volume(&volume, &scene, &Silent).unwrap();
-        scene.quality.backend = Backend::Reference;
+        scene.quality.backend = Choice::Named(Backend::Reference);
         let slow = render_volume(&volume, &scene, &Silent).unwrap();
         let pairs = || fast.image.pixels().iter().flatten().zip(slow.image.pixels().iter().flatten());
         let largest = pairs().map(|(a, b)| (a - b).abs()).fold(0.0, f32::max);

@@ -1,10 +1,11 @@
 //! A mesh that was read and cut into tetrahedra, and a field on it.
 
 use std::path::{Path, PathBuf};
-use std::sync::{Arc, OnceLock};
+use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use tetrascope_cpu::{CpuRenderer, reference};
+use tetrascope_gpu::GpuError;
 use tetrascope_io::read_mesh;
 use tetrascope_mesh::{Dataset, Decomposition, decompose};
 use tetrascope_scene::{
@@ -13,6 +14,7 @@ use tetrascope_scene::{
 };
 
 use crate::Error;
+use crate::made::Made;
 use crate::threads::on_threads;
 
 /// The path of the built-in sample: a name in place of a file, in scene files and on the command line.
@@ -116,7 +118,7 @@ impl Volume {
             source_name: self.source_name.clone(),
             error: tetrascope_mesh::MeshError::NoCells { points: self.dataset.points.len() },
         })?;
-        Ok(VolumeField { field, on_mesh, facts, mesh_path: self.path.as_deref(), made: OnceLock::new() })
+        Ok(VolumeField { field, on_mesh, facts, mesh_path: self.path.as_deref(), made: Arc::default() })
     }
 }
 
@@ -132,60 +134,50 @@ pub struct VolumeField<'a> {
     /// What defaults are made from.
     pub facts: MeshFacts,
     pub(crate) mesh_path: Option<&'a Path>,
-    pub(crate) made: OnceLock<Made>,
-}
-
-/// The fast renderer of a field.
-#[derive(Clone, Debug)]
-pub(crate) struct Made {
-    pub(crate) renderer: Arc<CpuRenderer>,
-    /// Whether it was given heights from a file.
-    pub(crate) has_read_heights: bool,
+    pub(crate) made: Arc<Made>,
 }
 
 impl VolumeField<'_> {
-    /// Draws the field as the plan says, with the back end that the plan names.
+    /// Draws the field as the plan says, with the back end that the plan names and no other.
     ///
     /// # Errors
-    /// [`Error::Render`].
+    /// [`Error::Render`]; with the back end `gpu` [`Error::Gpu`]: a device that was lost is opened anew for the next picture.
     pub fn render(&self, plan: &Plan, progress: &dyn Progress) -> Result<Rendered, Error> {
-        match plan.backend {
+        let start = Instant::now();
+        let (mut rendered, prepared) = match plan.backend {
             Backend::Reference => {
-                Ok(reference::render(self.on_mesh.mesh.as_ref(), &self.on_mesh.scalars, plan, progress)?)
+                return Ok(reference::render(self.mesh(), &self.on_mesh.scalars, plan, progress)?);
             }
             Backend::Cpu => {
-                let start = Instant::now();
                 let renderer = self.renderer_on(plan.threads)?;
                 let prepared = start.elapsed();
-                let mut rendered = renderer.render(plan, progress)?;
-                // Making the renderer is a part of preparing, unless it was there already.
-                match rendered.timings.iter_mut().find(|(stage, _)| *stage == Stage::Prepare) {
-                    Some((_, time)) => *time += prepared,
-                    None => rendered.timings.insert(0, (Stage::Prepare, prepared)),
-                }
-                Ok(rendered)
+                (renderer.render(plan, progress)?, prepared)
             }
+            Backend::Gpu => {
+                let adapter = plan.gpu.adapter.as_deref();
+                on_threads(plan.threads, || {
+                    let renderer = self.gpu_renderer(adapter)?;
+                    let prepared = start.elapsed();
+                    let rendered = renderer.render(plan, progress).inspect_err(|error| {
+                        if matches!(error, GpuError::Lost { .. }) {
+                            self.forget_device(adapter);
+                        }
+                    })?;
+                    Ok::<_, Error>((rendered, prepared))
+                })??
+            }
+        };
+        // Making the renderer is a part of preparing, unless it was there already.
+        match rendered.timings.iter_mut().find(|(stage, _)| *stage == Stage::Prepare) {
+            Some((_, time)) => *time += prepared,
+            None => rendered.timings.insert(0, (Stage::Prepare, prepared)),
         }
-    }
-
-    /// The fast renderer of this field, made when first asked for.
-    ///
-    /// # Errors
-    /// [`Error::Render`].
-    pub fn renderer(&self) -> Result<&CpuRenderer, Error> {
-        if let Some(made) = self.made.get() {
-            return Ok(&made.renderer);
-        }
-        let renderer = Arc::new(CpuRenderer::new(self.on_mesh.mesh.as_ref(), &self.on_mesh.scalars)?);
-        Ok(&self.made.get_or_init(|| Made { renderer, has_read_heights: false }).renderer)
+        Ok(rendered)
     }
 
     /// [`Self::renderer`], made on so many threads if it is not made yet.
     pub(crate) fn renderer_on(&self, threads: Option<usize>) -> Result<&CpuRenderer, Error> {
-        match self.made.get() {
-            Some(made) => Ok(&made.renderer),
-            None => on_threads(threads, || self.renderer())?,
-        }
+        on_threads(threads, || self.renderer())?
     }
 }
 

@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 use tetrascope::{
-    Camera, Integration, OpticalModel, Plan, Projection, SceneFile, Silent, TransferFunction, View, Volume,
+    Camera, Choice, Integration, OpticalModel, Plan, Projection, SceneFile, Silent, TransferFunction, View, Volume,
     mesh::rings_sample, render_volume,
 };
 use tetrascope_tests::meshes::{Random, Tets};
@@ -104,7 +104,7 @@ fn default_pictures_do_not_know_the_unit_of_length() {
         (scene.image.width, scene.image.height) = (64, 48);
         scene.camera.projection = projection;
         for backend in tetrascope::Backend::ALL {
-            scene.quality.backend = backend;
+            scene.quality.backend = Choice::Named(backend);
             let draw = |factor: f64| {
                 let mut dataset = rings_sample(5);
                 dataset.points.iter_mut().for_each(|p| *p *= factor);

@@ -12,7 +12,7 @@ mod scenes;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use tetrascope::{Backend, LinearImage, SceneFile, Silent, read_exr, render_scene, write_exr};
+use tetrascope::{Backend, Choice, LinearImage, SceneFile, Silent, read_exr, render_scene, write_exr};
 
 use crate::compare::{Difference, difference};
 pub use evidence::{Review, review};
@@ -49,7 +49,7 @@ pub fn draw(folder: &Path, name: &str, backend: Backend) -> Result<LinearImage, 
     let path = folder.join(format!("{name}.toml"));
     let text = fs::read_to_string(&path).map_err(|e| format!("{}: {e}", path.display()))?;
     let mut scene = SceneFile::parse(&text, &path).map_err(|e| e.to_string())?;
-    scene.quality.backend = backend;
+    scene.quality.backend = Choice::Named(backend);
     Ok(render_scene(&scene, folder, &Silent).map_err(|e| format!("{name}: {e}"))?.image)
 }
 

@@ -97,7 +97,7 @@ pub struct CpuRenderer {
     lookups: Mutex<Vec<Arc<Lookup>>>,
     maps: Mutex<Vec<Arc<Maps>>>,
     /// What visibility orders learned of the mesh, and the last of them.
-    visibility: MeshVisibility,
+    visibility: Arc<MeshVisibility>,
     orders: Mutex<Vec<Arc<Prepared>>>,
     /// Lengths of segments, only if a table asked for them; `None` if no cell has a volume.
     lengths: OnceLock<Option<ChordLengths>>,
@@ -133,6 +133,20 @@ impl CpuRenderer {
     /// # Errors
     /// [`RenderError`] if `scalars` does not fit the mesh or holds a value that is not finite where a tetrahedron uses it.
     pub fn new(mesh: &TetMesh, scalars: &[f64]) -> Result<Self, RenderError> {
+        Self::with_visibility(mesh, scalars, Arc::default())
+    }
+
+    /// The same with what is known of the mesh already; what is learned is shared with whoever else has it.
+    ///
+    /// - `visibility`: of the same mesh, as [`TetMesh::ascending_tetrahedra`] has its cells
+    ///
+    /// # Errors
+    /// Those of [`Self::new`].
+    pub fn with_visibility(
+        mesh: &TetMesh,
+        scalars: &[f64],
+        visibility: Arc<MeshVisibility>,
+    ) -> Result<Self, RenderError> {
         check_scalars(mesh, scalars)?;
         let (tetrahedra, is_positive) = mesh
             .tetrahedra()
@@ -156,20 +170,12 @@ impl CpuRenderer {
             optics: Mutex::new(Vec::new()),
             lookups: Mutex::new(Vec::new()),
             maps: Mutex::new(Vec::new()),
-            visibility: MeshVisibility::new(),
+            visibility,
             orders: Mutex::new(Vec::new()),
             lengths: OnceLock::new(),
             gradients: OnceLock::new(),
             scratch: Mutex::new(None),
         })
-    }
-
-    /// The same with heights of the points that were found before, see [`MeshVisibility::with_heights`].
-    ///
-    /// # Errors
-    /// Those of [`Self::new`].
-    pub fn with_heights(mesh: &TetMesh, scalars: &[f64], heights: Vec<f64>) -> Result<Self, RenderError> {
-        Ok(Self { visibility: MeshVisibility::with_heights(heights), ..Self::new(mesh, scalars)? })
     }
 
     /// Draws a picture as the plan says; the plan's back end is ignored.
@@ -189,7 +195,7 @@ impl CpuRenderer {
     }
 
     /// What visibility orders know of [`Self::cells`].
-    pub fn visibility(&self) -> &MeshVisibility {
+    pub fn visibility(&self) -> &Arc<MeshVisibility> {
         &self.visibility
     }
 
@@ -331,7 +337,7 @@ impl CpuRenderer {
             PixelSort::None | PixelSort::Window(_) => order.guarantee,
         };
         let order = OrderReport { guarantee, rings, rings_left: order.cycles.len() as u64 };
-        Ok(Rendered { image, timings: watch.finish(), counts, order })
+        Ok(Rendered { image, timings: watch.finish(), counts, order, device: None })
     }
 
     /// A visibility order, made ready for the mesh when first asked for.

@@ -3,8 +3,8 @@
 use tetrascope_integrate::{Integration, LengthAxis, TableSettings};
 use tetrascope_order::{CycleRemedy, OrderMethod};
 
-use crate::IsosurfaceMethod;
 use crate::file::{Choice, IsosurfaceMethodName, QualitySection, SceneFile};
+use crate::{Backend, GpuOptions, GpuPath, IsosurfaceMethod, SceneError, TargetBits};
 
 /// Takes a key that has no effect away, and says so if it was there.
 fn drop_key<T>(slot: &mut Option<T>, key: &str, why: &str, warnings: &mut Vec<String>) {
@@ -78,6 +78,14 @@ impl QualitySection {
             drop_what_the_order_has_not(self, order, &mut Vec::new());
         }
     }
+
+    /// Gives another back end, and forgets without a word what was asked of a GPU if it is none.
+    pub fn replace_backend(&mut self, backend: Choice<Backend>) {
+        self.backend = backend;
+        if matches!(backend, Choice::Named(Backend::Cpu | Backend::Reference)) {
+            (self.gpu_path, self.target_bits, self.adapter) = (None, None, None);
+        }
+    }
 }
 
 /// The table's sizes for this integration; `None` if it has no table.
@@ -126,4 +134,25 @@ pub(super) fn fill_isosurface_method(file: &mut SceneFile, warnings: &mut Vec<St
         _ => *section.map_size.get_or_insert(IsosurfaceMethod::MAP_SIZE),
     };
     name.with_size(size)
+}
+
+/// What is asked of a GPU, where one may draw.
+pub(super) fn fill_gpu(section: &mut QualitySection, warnings: &mut Vec<String>) -> Result<GpuOptions, SceneError> {
+    if let Choice::Named(backend @ (Backend::Cpu | Backend::Reference)) = section.backend {
+        let why = format!("the back end is {backend}, not gpu");
+        drop_key(&mut section.gpu_path, "gpu_path", &why, warnings);
+        drop_key(&mut section.target_bits, "target_bits", &why, warnings);
+        drop_key(&mut section.adapter, "adapter", &why, warnings);
+    }
+    if section.gpu_path == Some(Choice::Named(GpuPath::Compute)) {
+        drop_key(&mut section.target_bits, "target_bits", "the path compute blends in 32 bits, in no target", warnings);
+    }
+    let path = match section.gpu_path {
+        Some(Choice::Named(path)) => Some(path),
+        Some(Choice::Auto) | None => None,
+    };
+    let known =
+        |bits| TargetBits::of(bits).ok_or_else(|| SceneError::value("quality.target_bits", bits, "give 16 or 32"));
+    let target_bits = section.target_bits.map(known).transpose()?;
+    Ok(GpuOptions { path, target_bits, adapter: section.adapter.clone() })
 }

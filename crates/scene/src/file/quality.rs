@@ -4,11 +4,11 @@ use serde::{Deserialize, Serialize};
 use tetrascope_integrate::{Integration, LengthAxis};
 use tetrascope_order::{CycleRemedy, OrderMethod};
 
-use super::names::{Choice, as_name, as_optional_name};
-use crate::{Backend, IsosurfaceMethod, Mixing};
+use super::names::{Choice, as_optional_name};
+use crate::{Backend, GpuPath, IsosurfaceMethod, Mixing};
 
 /// `[quality]`
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct QualitySection {
     /// How a ray's segment in a cell becomes color and opacity.
@@ -46,9 +46,40 @@ pub struct QualitySection {
     /// The largest error wanted in a channel, 0 to 1.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub max_error: Option<f64>,
-    /// Who computes.
-    #[serde(with = "as_name")]
-    pub backend: Backend,
+    /// Who computes; `"cpu"` where nothing is said.
+    pub backend: Choice<Backend>,
+    /// How a GPU makes pixels of cells, for `backend = "gpu"` and `"auto"` only.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub gpu_path: Option<Choice<GpuPath>>,
+    /// Bits of a channel of the target that triangles are blended into, 16 or 32; likewise, and not with `gpu_path = "compute"`.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub target_bits: Option<u32>,
+    /// A part of the name of the GPU's adapter, or its number among the adapters; likewise.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub adapter: Option<String>,
+}
+
+impl Default for QualitySection {
+    fn default() -> Self {
+        Self {
+            integration: Choice::Auto,
+            order: Choice::Auto,
+            slabs: None,
+            window: None,
+            cycles: None,
+            keep_heights: None,
+            table_size: None,
+            table_lengths: None,
+            length_axis: None,
+            isosurfaces: None,
+            map_size: None,
+            max_error: None,
+            backend: Choice::Named(Backend::default()),
+            gpu_path: None,
+            target_bits: None,
+            adapter: None,
+        }
+    }
 }
 
 /// `quality.length_axis`

@@ -48,7 +48,7 @@ impl Scene {
             _ => {}
         }
         let order = self.decided_order();
-        if self.backend == Backend::Reference {
+        if self.backend == Some(Backend::Reference) {
             decisions.push(Decision::new("order", "per pixel", "the reference sorts the cells along every ray"));
             return Ok(order);
         }

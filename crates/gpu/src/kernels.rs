@@ -1,0 +1,62 @@
+//! Kernels that were built, by what they were built from.
+
+use std::collections::HashMap;
+use std::sync::{Arc, Mutex, PoisonError};
+
+use tetrascope_shaders::{Constant, Program, Slot};
+
+use crate::kernel::Kernel;
+use crate::{Gpu, GpuError};
+
+/// What a variant of a program is made of: files in its slots, and constants.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(crate) struct Variant {
+    pub(crate) slots: Vec<Slot<'static>>,
+    pub(crate) constants: Vec<(&'static str, Constant)>,
+}
+
+impl Variant {
+    /// The same with more slots.
+    pub(crate) fn with_slots(&self, slots: &[Slot<'static>]) -> Self {
+        let mut more = self.clone();
+        more.slots.extend_from_slice(slots);
+        more
+    }
+
+    /// The same with more constants.
+    pub(crate) fn with_constants(&self, constants: &[(&'static str, Constant)]) -> Self {
+        let mut more = self.clone();
+        more.constants.extend_from_slice(constants);
+        more
+    }
+}
+
+/// All kernels that were built so far. They are small, and building one takes longer than a frame.
+#[derive(Debug, Default)]
+pub(crate) struct Kernels {
+    built: Mutex<HashMap<String, Arc<Kernel>>>,
+}
+
+impl Kernels {
+    /// An entry point of a program in a variant; built when first asked for.
+    ///
+    /// # Errors
+    /// [`GpuError::Shader`] if the program cannot be composed.
+    pub(crate) fn get(
+        &self,
+        gpu: &Gpu,
+        file: &str,
+        entry_point: &str,
+        variant: &Variant,
+    ) -> Result<Arc<Kernel>, GpuError> {
+        let key = format!("{file} {entry_point} {variant:?}");
+        let mut built = self.built.lock().unwrap_or_else(PoisonError::into_inner);
+        if let Some(kernel) = built.get(&key) {
+            return Ok(Arc::clone(kernel));
+        }
+        let program = Program::compose(file, &variant.slots, &variant.constants)?;
+        let kernel = Arc::new(Kernel::new(gpu, &program, entry_point));
+        built.insert(key, Arc::clone(&kernel));
+        Ok(kernel)
+    }
+}

@@ -1,0 +1,52 @@
+//! What a scene asks of the GPU, and what it cannot do.
+
+use tetrascope_integrate::Integration;
+use tetrascope_order::CycleRemedy;
+
+use super::Scene;
+use crate::{Backend, Decision, GpuOptions, GpuPath, SceneError};
+
+impl Scene {
+    /// Why the back end `gpu` cannot draw this scene, whatever the device; `None` if it can.
+    pub fn why_not_on_gpu(&self) -> Option<SceneError> {
+        self.gpu_conflict(self.chosen_integration().0)
+    }
+
+    pub(super) fn check_gpu(&self, integration: Integration) -> Result<(), SceneError> {
+        match self.backend {
+            Some(Backend::Gpu) => self.gpu_conflict(integration).map_or(Ok(()), Err),
+            _ => Ok(()),
+        }
+    }
+
+    fn gpu_conflict(&self, integration: Integration) -> Option<SceneError> {
+        if self.cycles == CycleRemedy::Cut {
+            return Some(SceneError::Conflict {
+                key: "quality.cycles",
+                value: self.cycles.to_string(),
+                problem: "leaves pieces of cells, and the back end \"gpu\" draws whole ones".to_owned(),
+                remedy: "use quality.cycles = \"per-pixel\" or quality.backend = \"cpu\"",
+            });
+        }
+        (integration.needs_fan() && self.gpu.path == Some(GpuPath::Compute)).then(|| SceneError::Conflict {
+            key: "quality.integration",
+            value: integration.to_string(),
+            problem: "paints triangles, which the path \"compute\" of the back end \"gpu\" does not have".to_owned(),
+            remedy: "use quality.gpu_path = \"triangles\" or another integration, such as \"exact\"",
+        })
+    }
+
+    /// What the plan asks of the GPU; nothing if another back end draws.
+    pub(super) fn gpu_options(&self, integration: Integration, decisions: &mut Vec<Decision>) -> GpuOptions {
+        if self.backend != Some(Backend::Gpu) {
+            return GpuOptions::default();
+        }
+        let mut options = self.gpu.clone();
+        if options.path.is_none() && integration.needs_fan() {
+            options.path = Some(GpuPath::Triangles);
+            let reason = format!("the integration {integration} is defined on fans of triangles");
+            decisions.push(Decision::new("path", GpuPath::Triangles.to_string(), reason));
+        }
+        options
+    }
+}
