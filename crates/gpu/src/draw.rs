@@ -15,55 +15,59 @@ use std::time::Duration;
 
 use tetrascope_order::{CycleRemedy, Guarantee};
 use tetrascope_scene::{
-    BufferRole, Counts, DeviceBuffer, DeviceReport, GpuPath, OrderReport, Plan, Progress, Rendered, Stage, Stopwatch,
-    TargetBits,
+    Counts, GpuPath, OrderReport, Plan, Progress, Rendered, Stage, Stopwatch, TargetBits,
 };
-use tetrascope_shaders::Constant;
-use tetrascope_shaders::layout::{Block, GROUP};
 use tetrascope_view::{LinearImage, View};
-use wgpu::{Buffer, CommandEncoder, ComputePassDescriptor};
+use wgpu::Buffer;
 
 use crate::GpuError;
 use crate::effects::Effects;
-use crate::kept::{Kept, OrderMemory, TOTALS};
-use crate::kernel::Named;
+use crate::kept::{Kept, TOTALS};
 use crate::kernels::Variant;
 use crate::lookups::Lookups;
-use crate::part::{halves, parts, picture_bytes};
+use crate::part::{halves, parts};
 use crate::renderer::GpuRenderer;
-use crate::sorting::{InPixels, Source};
-use crate::stopwatch::Laps;
-use crate::view::{Part, frame_of};
-use crate::work::{BlockPlan, Work};
+use crate::sorting::{InPixels, MOST_HELD, Source};
+use crate::targets::best_target;
+use crate::view::Part;
 
-/// Places of `totals`.
+/// Places of `totals`: cells that are drawn, pairs that were needed, and what was left out.
 const DRAWN: usize = 0;
-const PAIRS: usize = 1;
+pub(crate) const PAIRS: usize = 1;
 const TRANSPARENT: usize = 2;
 const OUTSIDE: usize = 3;
 
 /// A picture that is about to be drawn.
 pub(crate) struct Drawing<'a> {
-    renderer: &'a GpuRenderer,
-    plan: &'a Plan,
+    pub(crate) renderer: &'a GpuRenderer,
+    pub(crate) plan: &'a Plan,
     progress: &'a dyn Progress,
     /// In the mesh's own coordinates.
-    view: View,
-    path: GpuPath,
-    source: Source,
+    pub(crate) view: View,
+    pub(crate) path: Path,
+    pub(crate) source: Source,
+}
+
+/// How cells become pixels.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Path {
+    /// Tiles, by compute programs.
+    Compute,
+    /// Fans of triangles, blended into a target of so many bits.
+    Triangles(TargetBits),
 }
 
 /// What a plan asks of the device besides the order.
-struct Means {
-    lookups: Arc<Lookups>,
-    effects: Arc<Effects>,
-    gradients: Option<Buffer>,
+pub(crate) struct Means {
+    pub(crate) lookups: Arc<Lookups>,
+    pub(crate) effects: Arc<Effects>,
+    pub(crate) gradients: Option<Buffer>,
     /// Files and constants of everything that shades.
-    variant: Variant,
+    pub(crate) variant: Variant,
 }
 
 /// A part of the picture that was drawn, or why it was not.
-enum Outcome {
+pub(crate) enum Outcome {
     Drawn { pixels: Vec<[f32; 4]>, tiles: Vec<[u32; 4]>, totals: [u32; TOTALS], stages: Vec<(Stage, Duration)> },
     /// So many pairs of tiles and cells were needed.
     NoRoom(u64),
@@ -79,7 +83,10 @@ impl<'a> Drawing<'a> {
         plan: &'a Plan,
         progress: &'a dyn Progress,
     ) -> Result<Self, GpuError> {
-        let path = choose_path(plan)?;
+        let path = choose_path(renderer, plan)?;
+        if plan.cycles == CycleRemedy::Cut {
+            return Err(GpuError::CannotCut);
+        }
         let view = plan.view.in_frame(renderer.frame.origin, renderer.frame.scale);
         Ok(Self { renderer, plan, progress, view, path, source: Source::of(plan.order) })
     }
@@ -114,7 +121,12 @@ impl<'a> Drawing<'a> {
         watch.lap(Stage::Order);
 
         let sort = InPixels::of(self.plan, rings > 0);
-        if self.path == GpuPath::Triangles && sort != InPixels::Nothing {
+        if let InPixels::Window(window) = sort
+            && window >= MOST_HELD
+        {
+            return Err(GpuError::WindowTooLarge { window, most: MOST_HELD - 1 });
+        }
+        if self.path != Path::Compute && sort != InPixels::Nothing {
             return Err(GpuError::TrianglesCannotSort);
         }
         let size = [self.plan.view.width, self.plan.view.height];
@@ -132,7 +144,7 @@ impl<'a> Drawing<'a> {
                     add_times(&mut stages, times);
                     is_first = false;
                 }
-                Outcome::NoRoom(pairs) => match kept.make_room(pairs, sort == InPixels::Nothing, &renderer.gpu) {
+                Outcome::NoRoom(pairs) => match kept.make_room(renderer, pairs) {
                     Ok(()) => waiting.push(part),
                     // All cells of a pixel must be there together: fewer pixels, then.
                     Err(error) => waiting.extend(halves(part).ok_or(error)?.into_iter().rev()),
@@ -162,7 +174,62 @@ impl<'a> Drawing<'a> {
         watch.lap(Stage::Tabulate);
         let mut slots = lookups.slots().to_vec();
         slots.extend(effects.slots());
-        let constants = effects.constants(self.path == GpuPath::Compute);
+        let constants = effects.constants(self.path == Path::Compute);
         Ok(Means { lookups, effects, gradients, variant: Variant { slots, constants } })
+    }
+}
+
+/// The path that a plan asks for, or the one that fits it.
+fn choose_path(renderer: &GpuRenderer, plan: &Plan) -> Result<Path, GpuError> {
+    let needs_fan = plan.integration.needs_fan();
+    let path = plan.gpu.path.unwrap_or(if needs_fan { GpuPath::Triangles } else { GpuPath::Compute });
+    match path {
+        GpuPath::Compute if needs_fan => Err(GpuError::NeedsTriangles { integration: plan.integration }),
+        GpuPath::Compute => Ok(Path::Compute),
+        GpuPath::Triangles => {
+            let best = best_target(&renderer.gpu);
+            match plan.gpu.target_bits {
+                Some(bits) if bits > best => Err(GpuError::TargetNotBlended {
+                    bits: bits.bits(),
+                    adapter: renderer.gpu.description().name.clone(),
+                }),
+                asked => Ok(Path::Triangles(asked.unwrap_or(best))),
+            }
+        }
+    }
+}
+
+/// Puts a part into the picture: pixels have their transmittance where the picture has its opacity.
+fn copy(image: &mut LinearImage, part: Part, pixels: &[[f32; 4]]) {
+    let width = image.width() as usize;
+    let [column, row] = part.origin.map(|first| first as usize);
+    for (y, line) in pixels.chunks_exact(part.extent[0] as usize).enumerate() {
+        let first = (row + y) * width + column;
+        for (target, &[r, g, b, transmittance]) in image.pixels_mut()[first..].iter_mut().zip(line) {
+            *target = [r, g, b, 1.0 - transmittance];
+        }
+    }
+}
+
+fn add_counts(counts: &mut Counts, tiles: &[[u32; 4]], totals: &[u32; TOTALS], is_first: bool) {
+    for &[fragments, crossings, sorted, most] in tiles {
+        counts.fragments += u64::from(fragments);
+        counts.crossings += u64::from(crossings);
+        counts.sorted += u64::from(sorted);
+        counts.most_held = counts.most_held.max(u64::from(most));
+    }
+    counts.transparent = u64::from(totals[TRANSPARENT]);
+    // A cell may lie in one part and outside of another: at least so many are drawn, at most so many are not.
+    let (drawn, outside) = (u64::from(totals[DRAWN]), u64::from(totals[OUTSIDE]));
+    counts.drawn = counts.drawn.max(drawn);
+    counts.outside = if is_first { outside } else { counts.outside.min(outside) };
+}
+
+fn add_times(stages: &mut Vec<(Stage, Duration)>, times: Vec<(Stage, Duration)>) {
+    for (stage, time) in times {
+        match stages.iter_mut().find(|(known, _)| *known == stage) {
+            Some((_, sum)) => *sum += time,
+            None => stages.push((stage, time)),
+        }
     }
 }

@@ -1,6 +1,6 @@
 //! Why a picture was not drawn.
 
-use tetrascope_integrate::MethodError;
+use tetrascope_integrate::{Integration, IsosurfaceError, MethodError};
 use tetrascope_shaders::ShaderError;
 
 /// Why a picture was not drawn, or no device was opened.
@@ -79,6 +79,41 @@ pub enum GpuError {
     /// The integration does not go with the optical model, or its table has no possible size.
     #[error(transparent)]
     Method(#[from] MethodError),
+    /// Isosurfaces have no possible map.
+    #[error(transparent)]
+    Isosurfaces(#[from] IsosurfaceError),
+    /// Cells in rings are to be cut, and only whole cells are drawn here.
+    #[error(
+        "cycles \"cut\" leaves pieces of cells, and the back end \"gpu\" draws whole ones; use the remedy \"per-pixel\", or the back end \"cpu\""
+    )]
+    CannotCut,
+    /// Triangles are blended in the order in which they come.
+    #[error(
+        "triangles cannot sort pixel by pixel, which this order or its rings of cells ask for; use the path \"compute\", or another order"
+    )]
+    TrianglesCannotSort,
+    /// A pixel cannot hold back so many segments.
+    #[error("a \"k-buffer\" holds back up to {most} cells on a device, not {window}; use a smaller window, or \"per-pixel\"")]
+    WindowTooLarge {
+        /// The window asked for.
+        window: u32,
+        /// The largest.
+        most: u32,
+    },
+    /// The integration is defined on triangles.
+    #[error("\"{integration}\" integrates a fan of triangles; use the path \"triangles\", or another integration")]
+    NeedsTriangles {
+        /// The integration.
+        integration: Integration,
+    },
+    /// The device does not blend such floats.
+    #[error("the device \"{adapter}\" cannot blend into floats of {bits} bits; use 16, or the path \"compute\"")]
+    TargetNotBlended {
+        /// Bits asked for.
+        bits: u32,
+        /// The adapter.
+        adapter: String,
+    },
     /// A program could not be composed; a defect.
     #[error(transparent)]
     Shader(#[from] ShaderError),

@@ -4,17 +4,22 @@ use std::sync::Arc;
 
 use tetrascope_order::OrderMethod;
 use tetrascope_scene::Plan;
-use tetrascope_shaders::layout::{Block, Frame};
+use tetrascope_shaders::layout::{Block, Frame, TILE_SIDE};
 use wgpu::{Buffer, BufferUsages};
 
+use crate::bins::{Bins, BinsKernels, BinsSize};
 use crate::compact::Compact;
+use crate::draw::{Drawing, Means, Path};
 use crate::effects::{Effects, ScalarUnit, point_gradients};
+use crate::kernel::Named;
 use crate::lookups::{FieldUnits, Lookups};
 use crate::mesh::MeshBuffers;
 use crate::radix::{RadixLists, RadixSort};
 use crate::renderer::GpuRenderer;
 use crate::scan::{ListKernels, words};
-use crate::sorting::MadeOrder;
+use crate::sorting::{InPixels, MadeOrder, Source};
+use crate::view::Part;
+use crate::work::{BlockPlan, Work};
 use crate::{Gpu, GpuError};
 
 /// Transfer functions whose lookups are remembered, so that going back and forth between two costs nothing.
@@ -32,9 +37,104 @@ pub(crate) struct Kept {
     effects: Option<Arc<Effects>>,
     gradients: Option<Buffer>,
     made: Option<MadeOrder>,
+    power: Option<PowerOrder>,
     order: Option<OrderMemory>,
-    /// Pairs of tile and cell that the last block needed at most.
-    pub(crate) pairs: u64,
+    /// How the order is cut, and whether all cells must be together.
+    plan: Option<(BlockPlan, bool)>,
+    work: Option<Work>,
+    tiles: Option<TileMemory>,
+    triangles: Option<TriangleMemory>,
+}
+
+/// The cells of each tile.
+#[derive(Debug)]
+pub(crate) struct TileMemory {
+    size: BinsSize,
+    starts: Buffer,
+    items: Buffer,
+    /// For every tile whether cells in rings touch it.
+    rings: Buffer,
+    pub(crate) bins: Bins,
+}
+
+/// What a frame works on.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Memory<'a> {
+    /// Number of the frame.
+    pub(crate) frame: u64,
+    pub(crate) plan: BlockPlan,
+    pub(crate) order: &'a OrderMemory,
+    pub(crate) work: &'a Work,
+    pub(crate) tiles: Option<&'a TileMemory>,
+    pub(crate) triangles: Option<&'a TriangleMemory>,
+    pub(crate) power: Option<&'a PowerOrder>,
+    permutation: Option<&'a Buffer>,
+}
+
+impl<'a> Memory<'a> {
+    /// All of it, and the mesh but for its cells, by name.
+    pub(crate) fn resources(&self, mesh: &'a MeshBuffers) -> Vec<Named<'a>> {
+        let Self { order, work, .. } = *self;
+        let mut all = vec![
+            ("frame", order.frame.as_entire_binding()),
+            ("block", order.block.as_entire_binding()),
+            ("totals", order.totals.as_entire_binding()),
+            ("kept", order.kept.as_entire_binding()),
+            ("keys", order.kept.as_entire_binding()),
+            ("order", order.order.as_entire_binding()),
+            ("vertices", mesh.vertices.as_entire_binding()),
+            ("points", mesh.points.as_entire_binding()),
+            ("drawn", work.drawn.as_entire_binding()),
+            ("picture", work.picture.as_entire_binding()),
+        ];
+        all.extend(self.permutation.map(|permutation| ("permutation", permutation.as_entire_binding())));
+        if let Some(tiles) = self.tiles {
+            all.extend([
+                ("tile_starts", tiles.starts.as_entire_binding()),
+                ("tile_items", tiles.items.as_entire_binding()),
+                ("ring_tiles", tiles.rings.as_entire_binding()),
+            ]);
+        }
+        all
+    }
+
+    /// Where the blocks of an order begin.
+    ///
+    /// - `back_to_front`: whether the farthest comes first
+    pub(crate) fn block_starts(&self, cells: u32, back_to_front: bool) -> Vec<u32> {
+        let mut starts: Vec<u32> = (0..cells.max(1)).step_by(self.plan.cells as usize).collect();
+        if back_to_front {
+            starts.reverse();
+        }
+        starts
+    }
+
+    /// Tiles of the part that is drawn.
+    pub(crate) fn tile_count(&self) -> u32 {
+        self.tiles.map_or(0, |tiles| tiles.size.tiles)
+    }
+}
+
+impl TileMemory {
+    fn new(gpu: &Gpu, order: &OrderMemory, work: &Work, points: &Buffer, size: BinsSize) -> Result<Self, GpuError> {
+        let starts = words(gpu, "where tiles begin", u64::from(size.tiles) + 1)?;
+        let items = words(gpu, "cells of tiles", size.pairs.into())?;
+        let rings = words(gpu, "tiles with rings", size.tiles.into())?;
+        let kernels = BinsKernels::new(gpu, "cell/outline.wgsl")?;
+        let resources = [
+            ("frame", order.frame.as_entire_binding()),
+            ("block", order.block.as_entire_binding()),
+            ("drawn", work.drawn.as_entire_binding()),
+            ("tile_starts", starts.as_entire_binding()),
+            ("points", points.as_entire_binding()),
+        ];
+        let bins = Bins::new(gpu, &order.lists, &kernels, [&items, &order.totals], &resources, size)?;
+        Ok(Self { size, starts, items, rings, bins })
+    }
+
+    fn bytes(&self) -> u64 {
+        self.starts.size() + self.items.size() + self.rings.size() + self.bins.bytes()
+    }
 }
 
 /// The order of the cells that are drawn, and what makes it.
@@ -160,8 +260,91 @@ impl Kept {
         }
     }
 
+    /// Makes ready what a part of a frame works on.
+    pub(crate) fn prepare(
+        &mut self,
+        drawing: &Drawing<'_>,
+        means: &Means,
+        sort: InPixels,
+        part: Part,
+    ) -> Result<(), GpuError> {
+        let renderer = drawing.renderer;
+        let (gpu, mesh) = (&renderer.gpu, &renderer.mesh);
+        let limit = gpu.largest_binding();
+        let whole = sort != InPixels::Nothing;
+        self.order(renderer, matches!(drawing.source, Source::Centroids | Source::Power))?;
+        let plan = match self.plan {
+            Some((plan, was_whole)) if was_whole == whole => plan,
+            _ => BlockPlan::new(mesh.cell_count, whole, limit),
+        };
+        if whole && plan.cells < mesh.cell_count {
+            return Err(GpuError::TooLarge {
+                what: "all tetrahedra, which pixels sort and so must be together,",
+                needed: u64::from(mesh.cell_count) * 16,
+                limit,
+                adapter: gpu.description().name.clone(),
+            });
+        }
+        self.plan = Some((plan, whole));
+        if !self.work.as_ref().is_some_and(|work| work.fits(plan.cells, part)) {
+            // What is bound to it goes with it.
+            (self.work, self.tiles) = (None, None);
+            self.work = Some(Work::new(gpu, plan.cells, part));
+        }
+        let (Some(order), Some(work)) = (&self.order, &self.work) else { return Ok(()) };
+        match drawing.path {
+            Path::Compute => {
+                let [columns, rows] = part.extent.map(|side| side.div_ceil(TILE_SIDE));
+                let size = BinsSize { cells: plan.cells, pairs: plan.pairs, tiles: columns * rows };
+                if self.tiles.as_ref().is_none_or(|tiles| tiles.size != size) {
+                    self.tiles = None;
+                    self.tiles = Some(TileMemory::new(gpu, order, work, &mesh.points, size)?);
+                }
+            }
+            Path::Triangles(bits) => {
+                let fits = |memory: &TriangleMemory| memory.fits(&means.variant, bits, plan.cells, part);
+                if !self.triangles.as_ref().is_some_and(fits) {
+                    self.triangles = None;
+                    self.triangles = Some(TriangleMemory::new(gpu, drawing.plan, &means.variant, bits, plan.cells, part)?);
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// Makes room for more pairs of tiles and cells, or takes fewer cells at a time.
+    ///
+    /// # Errors
+    /// [`GpuError::TooLarge`] if neither helps.
+    pub(crate) fn make_room(&mut self, renderer: &GpuRenderer, pairs: u64) -> Result<(), GpuError> {
+        let limit = renderer.gpu.largest_binding();
+        let (plan, whole) = self.plan.unwrap_or((BlockPlan::new(renderer.mesh.cell_count, false, limit), false));
+        let plan = plan.with_room(pairs, whole, limit).ok_or_else(|| GpuError::TooLarge {
+            what: "the tetrahedra of the picture's tiles",
+            needed: pairs * 4,
+            limit,
+            adapter: renderer.gpu.description().name.clone(),
+        })?;
+        self.plan = Some((plan, whole));
+        Ok(())
+    }
+
+    /// What a part of a frame works on, once it is prepared.
+    pub(crate) fn memory(&self) -> Option<Memory<'_>> {
+        Some(Memory {
+            frame: self.frame,
+            plan: self.plan?.0,
+            order: self.order.as_ref()?,
+            work: self.work.as_ref()?,
+            tiles: self.tiles.as_ref(),
+            triangles: self.triangles.as_ref(),
+            power: self.power.as_ref(),
+            permutation: self.made.as_ref().map(|made| &made.permutation),
+        })
+    }
+
     /// Memory of the order.
-    pub(crate) fn order(&mut self, renderer: &GpuRenderer, sorts: bool) -> Result<&OrderMemory, GpuError> {
+    fn order(&mut self, renderer: &GpuRenderer, sorts: bool) -> Result<&OrderMemory, GpuError> {
         let (gpu, mesh) = (&renderer.gpu, &renderer.mesh);
         let mut order = match self.order.take() {
             Some(order) => order,

@@ -129,25 +129,35 @@ impl Gpu {
         buffer
     }
 
-    /// Submits commands and waits for the contents of a buffer: the first `bytes` of it.
+    /// Waits for the contents of a buffer that can be mapped: its first `bytes`, after all that was submitted.
     ///
     /// # Errors
     /// What the driver says if the device does not answer.
-    pub(crate) fn read(&self, mut encoder: CommandEncoder, from: &Buffer, bytes: u64) -> Result<Vec<u8>, String> {
-        let bytes = bytes.next_multiple_of(4);
-        let target = self.buffer("read-back", bytes, BufferUsages::MAP_READ | BufferUsages::COPY_DST);
-        encoder.copy_buffer_to_buffer(from, 0, &target, 0, bytes);
-        self.queue.submit([encoder.finish()]);
+    pub(crate) fn contents(&self, buffer: &Buffer, bytes: u64) -> Result<Vec<u8>, String> {
+        let slice = buffer.slice(..bytes);
         let (sender, receiver) = std::sync::mpsc::channel();
-        target.slice(..bytes).map_async(wgpu::MapMode::Read, move |result| {
+        slice.map_async(wgpu::MapMode::Read, move |result| {
             // Nobody waits any more if the device is gone.
             let _ = sender.send(result);
         });
         self.device.poll(wgpu::PollType::wait_indefinitely()).map_err(|error| error.to_string())?;
         receiver.recv().map_err(|error| error.to_string())?.map_err(|error| error.to_string())?;
-        let contents = target.slice(..bytes).get_mapped_range().map_err(|error| error.to_string())?.to_vec();
-        target.unmap();
+        let contents = slice.get_mapped_range().map_err(|error| error.to_string())?.to_vec();
+        buffer.unmap();
         Ok(contents)
+    }
+
+    /// Submits commands and waits for the contents of any buffer: the first `bytes` of it.
+    ///
+    /// # Errors
+    /// As [`Self::contents`].
+    #[cfg(test)]
+    pub(crate) fn read(&self, mut encoder: CommandEncoder, from: &Buffer, bytes: u64) -> Result<Vec<u8>, String> {
+        let bytes = bytes.next_multiple_of(4);
+        let target = self.buffer("read-back", bytes, BufferUsages::MAP_READ | BufferUsages::COPY_DST);
+        encoder.copy_buffer_to_buffer(from, 0, &target, 0, bytes);
+        self.queue.submit([encoder.finish()]);
+        self.contents(&target, bytes)
     }
 
     /// An encoder for commands.

@@ -35,6 +35,11 @@ impl Source {
     }
 }
 
+/// Segments that a pixel can hold back on a device.
+pub(crate) const MOST_HELD: u32 = 64;
+/// Segments that it holds back where it runs through its cells as often as it takes: the larger, the fewer runs, and the more registers.
+pub(crate) const HELD_IN_LAYERS: u32 = 16;
+
 /// What pixels sort by themselves.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum InPixels {

@@ -26,6 +26,9 @@ pub(crate) struct Laps<'a> {
 }
 
 impl DeviceStopwatch {
+    /// Bytes of the times of a frame, at most.
+    pub(crate) const BYTES: u64 = 2 * MOST as u64 * 8;
+
     /// `None` if the device does not tell.
     pub(crate) fn new(gpu: &Gpu) -> Option<Self> {
         if !gpu.device.features().contains(wgpu::Features::TIMESTAMP_QUERY) {
@@ -38,7 +41,7 @@ impl DeviceStopwatch {
         });
         let resolved = gpu.buffer(
             "stage times",
-            u64::from(2 * MOST) * 8,
+            Self::BYTES,
             BufferUsages::QUERY_RESOLVE | BufferUsages::COPY_SRC,
         );
         Some(Self { queries, resolved, period_nanos: f64::from(gpu.queue.get_timestamp_period()) })

@@ -3,7 +3,9 @@
 use wgpu::{Buffer, BufferUsages};
 
 use crate::Gpu;
+use crate::kept::TOTALS;
 use crate::part::picture_bytes;
+use crate::stopwatch::DeviceStopwatch;
 use crate::view::Part;
 
 /// Most cells of a block: their memory stays below some 200 MB, and a block keeps every device busy.
@@ -52,7 +54,7 @@ impl BlockPlan {
 pub(crate) struct Work {
     pub(crate) drawn: Buffer,
     pub(crate) picture: Buffer,
-    /// What comes back: picture, totals.
+    /// What comes back: picture, totals, times.
     pub(crate) read_back: Buffer,
     cells: u32,
     picture_bytes: u64,
@@ -60,9 +62,9 @@ pub(crate) struct Work {
 
 impl Work {
     /// - `cells`: of a block
-    /// - `extra`: bytes that come back besides the picture
-    pub(crate) fn new(gpu: &Gpu, cells: u32, part: Part, extra: u64) -> Self {
+    pub(crate) fn new(gpu: &Gpu, cells: u32, part: Part) -> Self {
         let picture_bytes = picture_bytes(part);
+        let extra = (TOTALS * 4) as u64 + DeviceStopwatch::BYTES;
         Self {
             drawn: gpu.storage("drawn", u64::from(cells) * BYTES_PER_CELL),
             picture: gpu.storage("picture", picture_bytes),
