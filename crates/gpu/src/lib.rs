@@ -1,9 +1,18 @@
 //! The GPU back end: Projected Tetrahedra on any device that wgpu reaches.
 
+mod compact;
 mod device;
 mod error;
 mod kernel;
+mod radix;
+mod scan;
 
+#[cfg(test)]
+mod compact_tests;
+#[cfg(test)]
+mod radix_tests;
+#[cfg(test)]
+mod scan_tests;
 #[cfg(test)]
 mod testing;
 

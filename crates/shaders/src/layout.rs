@@ -8,6 +8,11 @@ use bytemuck::{Pod, Zeroable};
 
 use crate::constants::Constant;
 
+#[path = "layout_order.rs"]
+mod order;
+
+pub use order::{Block, LIST_BLOCK, LIST_ITEMS, PAIRS_WRITTEN, PowerView, RADIX_BITS, Work};
+
 /// One step of the lattice of positions and scalars, in local units.
 pub const LATTICE_STEP: f64 = 1.0 / (1u64 << 29) as f64;
 /// What a unit vector's component of 1 becomes in [`Frame`].
@@ -29,6 +34,10 @@ pub(crate) const CONSTANTS: &[(&str, Constant)] = &[
     ("GROUP", Constant::U32(GROUP)),
     ("NEGATIVE_BIT", Constant::U32(NEGATIVE_BIT)),
     ("RING_BIT", Constant::U32(RING_BIT)),
+    ("LIST_ITEMS", Constant::U32(LIST_ITEMS)),
+    ("LIST_BLOCK", Constant::U32(LIST_BLOCK)),
+    ("RADIX_BITS", Constant::U32(RADIX_BITS)),
+    ("PAIRS_WRITTEN", Constant::U32(PAIRS_WRITTEN)),
 ];
 
 /// A view, and the part of the picture that is drawn.

@@ -7,4 +7,15 @@ macro_rules! sources {
     };
 }
 
-sources!["cell/cell.wgsl", "include/frame.wgsl", "include/list.wgsl", "integrate/light.wgsl",];
+sources![
+    "cell/cell.wgsl",
+    "include/block.wgsl",
+    "include/frame.wgsl",
+    "include/group_scan.wgsl",
+    "include/list.wgsl",
+    "include/work.wgsl",
+    "integrate/light.wgsl",
+    "order/compact.wgsl",
+    "order/radix.wgsl",
+    "order/scan.wgsl",
+];
