@@ -141,7 +141,7 @@ fn eight_from(first: u32, stride: u32) -> Eight {
     );
 }
 
-fn get(places: Eight) -> Eight {
+fn taken(places: Eight) -> Eight {
     return Eight(
         vec4<u32>(
             exchange[word(places.a.x)], exchange[word(places.a.y)], exchange[word(places.a.z)], exchange[word(places.a.w)]
@@ -225,11 +225,11 @@ fn radix_scatter(
     let lower = places_of(Eight(digits_of(keys.a) & vec4<u32>(15u), digits_of(keys.b) & vec4<u32>(15u)), thread);
     put(lower, keys);
     workgroupBarrier();
-    keys = get(own);
+    keys = taken(own);
     workgroupBarrier();
     put(lower, entries);
     workgroupBarrier();
-    entries = get(own);
+    entries = taken(own);
     workgroupBarrier();
     let upper = places_of(Eight(digits_of(keys.a) >> vec4<u32>(4u), digits_of(keys.b) >> vec4<u32>(4u)), thread);
     put(upper, keys);
@@ -237,7 +237,7 @@ fn radix_scatter(
 
     // From here on neighboring threads have neighboring entries.
     let place = eight_from(thread, GROUP);
-    keys = get(place);
+    keys = taken(place);
     let digit = Eight(digits_of(keys.a), digits_of(keys.b));
     note_run(place.a.x, digit.a.x, group, blocks);
     note_run(place.a.y, digit.a.y, group, blocks);
@@ -260,7 +260,7 @@ fn radix_scatter(
     write_key(place.b.w, to_b.w, keys.b.w, valid);
     put(upper, entries);
     workgroupBarrier();
-    entries = get(place);
+    entries = taken(place);
     write_order(place.a.x, to_a.x, entries.a.x, valid);
     write_order(place.a.y, to_a.y, entries.a.y, valid);
     write_order(place.a.z, to_a.z, entries.a.z, valid);

@@ -1,5 +1,6 @@
 //! The GPU back end: Projected Tetrahedra on any device that wgpu reaches.
 
+mod bins;
 mod compact;
 mod device;
 mod error;
@@ -7,6 +8,8 @@ mod kernel;
 mod radix;
 mod scan;
 
+#[cfg(test)]
+mod bins_tests;
 #[cfg(test)]
 mod compact_tests;
 #[cfg(test)]

@@ -16,6 +16,9 @@ sources![
     "include/work.wgsl",
     "integrate/light.wgsl",
     "order/compact.wgsl",
+    "order/pairs.wgsl",
     "order/radix.wgsl",
     "order/scan.wgsl",
+    "order/tiles.wgsl",
+    "test/outline.wgsl",
 ];
