@@ -1,5 +1,7 @@
 //! The GPU back end: Projected Tetrahedra on any device that wgpu reaches.
 
+mod bins;
+mod compact;
 mod device;
 mod draw;
 mod error;
@@ -9,11 +11,21 @@ mod kernels;
 mod lookups;
 mod mesh;
 mod part;
+mod radix;
 mod renderer;
+mod scan;
 mod sorting;
 mod stopwatch;
 mod work;
 
+#[cfg(test)]
+mod bins_tests;
+#[cfg(test)]
+mod compact_tests;
+#[cfg(test)]
+mod radix_tests;
+#[cfg(test)]
+mod scan_tests;
 #[cfg(test)]
 mod testing;
 

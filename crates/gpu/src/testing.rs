@@ -44,3 +44,27 @@ pub(crate) fn contents<T: Pod>(
     let bytes = gpu.read(encoder, buffer, (count * size_of::<T>()) as u64).expect("the device answers");
     bytemuck::pod_collect_to_vec(&bytes[..count * size_of::<T>()])
 }
+
+/// Random numbers that are the same every time.
+pub(crate) struct Numbers(u64);
+
+impl Numbers {
+    pub(crate) fn new(seed: u64) -> Self {
+        Self(seed)
+    }
+
+    /// Below `end`.
+    pub(crate) fn below(&mut self, end: u32) -> u32 {
+        // splitmix64.
+        self.0 = self.0.wrapping_add(0x9E37_79B9_7F4A_7C15);
+        let mut mixed = self.0;
+        mixed = (mixed ^ mixed >> 30).wrapping_mul(0xBF58_476D_1CE4_E5B9);
+        mixed = (mixed ^ mixed >> 27).wrapping_mul(0x94D0_49BB_1331_11EB);
+        (((mixed ^ mixed >> 31) >> 32) * u64::from(end) >> 32) as u32
+    }
+
+    /// From 0 to below 1.
+    pub(crate) fn unit(&mut self) -> f64 {
+        f64::from(self.below(u32::MAX)) / f64::from(u32::MAX)
+    }
+}

@@ -10,6 +10,11 @@ use tetrascope_integrate::PsiTable;
 use crate::constants::Constant;
 pub use crate::layout_optics::OpticsUniform;
 
+#[path = "layout_order.rs"]
+mod order;
+
+pub use order::{Block, LIST_BLOCK, LIST_ITEMS, PAIRS_WRITTEN, PowerView, RADIX_BITS, Work};
+
 /// One step of the lattice of positions and scalars, in local units.
 pub const LATTICE_STEP: f64 = 1.0 / (1u64 << 29) as f64;
 /// What a unit vector's component of 1 becomes in [`Frame`].
@@ -33,6 +38,10 @@ pub(crate) const CONSTANTS: &[(&str, Constant)] = &[
     ("RING_BIT", Constant::U32(RING_BIT)),
     ("PSI_DEPTHS", Constant::U32(PsiTable::DEPTHS as u32)),
     ("PSI_BALANCES", Constant::U32(PsiTable::BALANCES as u32)),
+    ("LIST_ITEMS", Constant::U32(LIST_ITEMS)),
+    ("LIST_BLOCK", Constant::U32(LIST_BLOCK)),
+    ("RADIX_BITS", Constant::U32(RADIX_BITS)),
+    ("PAIRS_WRITTEN", Constant::U32(PAIRS_WRITTEN)),
 ];
 
 /// A view, and the part of the picture that is drawn.

@@ -9,8 +9,11 @@ macro_rules! sources {
 
 sources![
     "cell/cell.wgsl",
+    "include/block.wgsl",
     "include/frame.wgsl",
+    "include/group_scan.wgsl",
     "include/list.wgsl",
+    "include/work.wgsl",
     "integrate/absorption.wgsl",
     "integrate/average.wgsl",
     "integrate/cumulative.wgsl",
@@ -32,8 +35,13 @@ sources![
     "integrate/weights.wgsl",
     "order/candidate_own.wgsl",
     "order/candidate_permuted.wgsl",
+    "order/compact.wgsl",
     "order/cull.wgsl",
     "order/gather.wgsl",
+    "order/pairs.wgsl",
+    "order/radix.wgsl",
+    "order/scan.wgsl",
+    "order/tiles.wgsl",
     "raster/clear.wgsl",
     "raster/every_tile.wgsl",
     "raster/find_rings.wgsl",
@@ -44,4 +52,5 @@ sources![
     "raster/staged.wgsl",
     "raster/tile.wgsl",
     "test/integrate.wgsl",
+    "test/outline.wgsl",
 ];
