@@ -72,6 +72,9 @@ pub enum GpuError {
         /// What it says.
         problem: String,
     },
+    /// Isosurfaces have no possible map.
+    #[error(transparent)]
+    Isosurfaces(#[from] tetrascope_integrate::IsosurfaceError),
     /// A program could not be composed; a defect.
     #[error(transparent)]
     Shader(#[from] ShaderError),

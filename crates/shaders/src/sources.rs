@@ -7,4 +7,35 @@ macro_rules! sources {
     };
 }
 
-sources!["cell/cell.wgsl", "include/frame.wgsl", "include/list.wgsl", "integrate/light.wgsl",];
+sources![
+    "cell/cell.wgsl",
+    "effects/axes.wgsl",
+    "effects/carry.wgsl",
+    "effects/cell_corners.wgsl",
+    "effects/constant_gradient.wgsl",
+    "effects/gradient_cell.wgsl",
+    "effects/gradient_mixed.wgsl",
+    "effects/gradient_points.wgsl",
+    "effects/interpolated_gradient.wgsl",
+    "effects/joint.wgsl",
+    "effects/lamp.wgsl",
+    "effects/lit.wgsl",
+    "effects/maps.wgsl",
+    "effects/none.wgsl",
+    "effects/over.wgsl",
+    "effects/power.wgsl",
+    "effects/surface_lit.wgsl",
+    "effects/surface_plain.wgsl",
+    "effects/surface_set.wgsl",
+    "effects/surfaces.wgsl",
+    "effects/visible_none.wgsl",
+    "effects/visible_surfaces.wgsl",
+    "effects/volume_lit.wgsl",
+    "effects/volume_plain.wgsl",
+    "include/frame.wgsl",
+    "include/list.wgsl",
+    "include/points.wgsl",
+    "integrate/light.wgsl",
+    "test/effects.wgsl",
+    "test/volume_grey.wgsl",
+];
