@@ -8,12 +8,9 @@ use bytemuck::{Pod, Zeroable};
 use tetrascope_integrate::PsiTable;
 
 use crate::constants::Constant;
+pub use crate::layout_effects::*;
 pub use crate::layout_optics::OpticsUniform;
-
-#[path = "layout_order.rs"]
-mod order;
-
-pub use order::{Block, LIST_BLOCK, LIST_ITEMS, PAIRS_WRITTEN, PowerView, RADIX_BITS, Work};
+pub use crate::layout_order::{Block, LIST_BLOCK, LIST_ITEMS, PAIRS_WRITTEN, PowerView, RADIX_BITS, Work};
 
 /// One step of the lattice of positions and scalars, in local units.
 pub const LATTICE_STEP: f64 = 1.0 / (1u64 << 29) as f64;

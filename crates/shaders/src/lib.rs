@@ -20,7 +20,9 @@
 mod compose;
 mod constants;
 pub mod layout;
+mod layout_effects;
 mod layout_optics;
+mod layout_order;
 mod program;
 mod sources;
 
