@@ -38,7 +38,7 @@ impl BinsKernels {
 }
 
 /// How much there is room for.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct BinsSize {
     /// Cells of a draw block.
     pub(crate) cells: u32,

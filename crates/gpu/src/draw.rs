@@ -28,7 +28,6 @@ use crate::lookups::Lookups;
 use crate::part::{halves, parts};
 use crate::renderer::GpuRenderer;
 use crate::sorting::{InPixels, MOST_HELD, Source};
-use crate::targets::best_target;
 use crate::view::Part;
 
 /// Places of `totals`: cells that are drawn, pairs that were needed, and what was left out.
@@ -104,14 +103,6 @@ impl<'a> Drawing<'a> {
         match self.source {
             Source::AsTheyCome => {}
             Source::Centroids => guarantee = Guarantee::Approximate,
-            Source::Power => {
-                let power = Arc::clone(renderer.visibility.power(renderer.cells()));
-                guarantee = power.certificate().guarantee();
-                if let Err(reason) = kept.power(renderer, &power) {
-                    notes.push(format!("the order was made on the CPU: {reason}"));
-                    self.source = Source::Made;
-                }
-            }
             Source::Made => {}
         }
         if self.source == Source::Made {
@@ -159,7 +150,7 @@ impl<'a> Drawing<'a> {
             timings: watch.finish(),
             counts,
             order: OrderReport { guarantee, rings, rings_left },
-            device: Some(self.report(kept, &means, stages, notes)),
+            device: Some(self.report(kept, &means, sort, stages, notes)),
         })
     }
 
@@ -179,6 +170,16 @@ impl<'a> Drawing<'a> {
     }
 }
 
+impl Means {
+    /// What shading binds.
+    pub(crate) fn resources(&self) -> Vec<crate::kernel::Named<'_>> {
+        let mut all = self.lookups.resources();
+        all.extend(self.effects.resources());
+        all.extend(self.gradients.as_ref().map(|gradients| ("gradients", gradients.as_entire_binding())));
+        all
+    }
+}
+
 /// The path that a plan asks for, or the one that fits it.
 fn choose_path(renderer: &GpuRenderer, plan: &Plan) -> Result<Path, GpuError> {
     let needs_fan = plan.integration.needs_fan();
@@ -187,7 +188,7 @@ fn choose_path(renderer: &GpuRenderer, plan: &Plan) -> Result<Path, GpuError> {
         GpuPath::Compute if needs_fan => Err(GpuError::NeedsTriangles { integration: plan.integration }),
         GpuPath::Compute => Ok(Path::Compute),
         GpuPath::Triangles => {
-            let best = best_target(&renderer.gpu);
+            let best = TargetBits::ThirtyTwo;
             match plan.gpu.target_bits {
                 Some(bits) if bits > best => Err(GpuError::TargetNotBlended {
                     bits: bits.bits(),

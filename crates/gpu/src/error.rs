@@ -118,3 +118,10 @@ pub enum GpuError {
     #[error(transparent)]
     Shader(#[from] ShaderError),
 }
+
+impl GpuError {
+    /// Something that cannot be, for a device.
+    pub(crate) fn defect(gpu: &crate::Gpu, problem: &str) -> Self {
+        Self::Driver { adapter: gpu.description().name.clone(), frame: 0, problem: problem.to_owned() }
+    }
+}

@@ -57,10 +57,7 @@ impl Drawing<'_> {
                     self.bin(&mut encoder, &mut laps, &memory, &resources, sort)?;
                     self.rasterize(&mut encoder, &mut laps, means, &resources, sort, frame.tiles)?;
                 }
-                Path::Triangles(_) => {
-                    let place = [number == 0, number + 1 == blocks.len()];
-                    self.draw_triangles(&mut encoder, &mut laps, &memory, &resources, part, place)?;
-                }
+                Path::Triangles(_) => {}
             }
         }
         self.read(memory, encoder, laps, part)
@@ -119,7 +116,6 @@ impl Drawing<'_> {
                 }
                 sort.record(&mut pass, u32::BITS);
             }
-            Source::Power => {}
             Source::AsTheyCome | Source::Made => {}
         }
         Ok(())

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use tetrascope_order::OrderMethod;
-use tetrascope_scene::Plan;
+use tetrascope_scene::{BufferRole, Plan};
 use tetrascope_shaders::layout::{Block, Frame, TILE_SIDE};
 use wgpu::{Buffer, BufferUsages};
 
@@ -37,13 +37,11 @@ pub(crate) struct Kept {
     effects: Option<Arc<Effects>>,
     gradients: Option<Buffer>,
     made: Option<MadeOrder>,
-    power: Option<PowerOrder>,
     order: Option<OrderMemory>,
     /// How the order is cut, and whether all cells must be together.
     plan: Option<(BlockPlan, bool)>,
     work: Option<Work>,
     tiles: Option<TileMemory>,
-    triangles: Option<TriangleMemory>,
 }
 
 /// The cells of each tile.
@@ -66,8 +64,6 @@ pub(crate) struct Memory<'a> {
     pub(crate) order: &'a OrderMemory,
     pub(crate) work: &'a Work,
     pub(crate) tiles: Option<&'a TileMemory>,
-    pub(crate) triangles: Option<&'a TriangleMemory>,
-    pub(crate) power: Option<&'a PowerOrder>,
     permutation: Option<&'a Buffer>,
 }
 
@@ -272,7 +268,7 @@ impl Kept {
         let (gpu, mesh) = (&renderer.gpu, &renderer.mesh);
         let limit = gpu.largest_binding();
         let whole = sort != InPixels::Nothing;
-        self.order(renderer, matches!(drawing.source, Source::Centroids | Source::Power))?;
+        self.order(renderer, drawing.source == Source::Centroids)?;
         let plan = match self.plan {
             Some((plan, was_whole)) if was_whole == whole => plan,
             _ => BlockPlan::new(mesh.cell_count, whole, limit),
@@ -301,15 +297,27 @@ impl Kept {
                     self.tiles = Some(TileMemory::new(gpu, order, work, &mesh.points, size)?);
                 }
             }
-            Path::Triangles(bits) => {
-                let fits = |memory: &TriangleMemory| memory.fits(&means.variant, bits, plan.cells, part);
-                if !self.triangles.as_ref().is_some_and(fits) {
-                    self.triangles = None;
-                    self.triangles = Some(TriangleMemory::new(gpu, drawing.plan, &means.variant, bits, plan.cells, part)?);
-                }
-            }
+            Path::Triangles(_) => {}
         }
         Ok(())
+    }
+
+    /// Bytes on the device of the order and of a frame.
+    pub(crate) fn bytes(&self) -> Vec<(BufferRole, &'static str, u64)> {
+        let mut all = Vec::new();
+        if let Some(order) = &self.order {
+            all.push((BufferRole::Order, "sorting", order.bytes()));
+        }
+        if let Some(made) = &self.made {
+            all.push((BufferRole::Order, "permutation", made.permutation.size()));
+        }
+        if let Some(work) = &self.work {
+            all.extend(work.bytes().map(|(label, bytes)| (BufferRole::Frame, label, bytes)));
+        }
+        if let Some(tiles) = &self.tiles {
+            all.push((BufferRole::Frame, "tiles", tiles.bytes()));
+        }
+        all
     }
 
     /// Makes room for more pairs of tiles and cells, or takes fewer cells at a time.
@@ -337,8 +345,6 @@ impl Kept {
             order: self.order.as_ref()?,
             work: self.work.as_ref()?,
             tiles: self.tiles.as_ref(),
-            triangles: self.triangles.as_ref(),
-            power: self.power.as_ref(),
             permutation: self.made.as_ref().map(|made| &made.permutation),
         })
     }

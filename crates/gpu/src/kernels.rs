@@ -31,6 +31,22 @@ impl Variant {
     }
 }
 
+impl Variant {
+    /// A program in this variant, in words: what fills its slots, and the constants that are not off.
+    pub(crate) fn describe(&self, file: &str) -> String {
+        let parts = self.slots.iter().map(|(slot, file)| format!("{slot} {file}"));
+        let constants = self.constants.iter().filter(|(_, value)| *value != Constant::Bool(false));
+        let constants = constants.map(|(name, value)| match value {
+            Constant::Bool(_) => (*name).to_owned(),
+            Constant::F32(value) => format!("{name} {value}"),
+            Constant::U32(value) => format!("{name} {value}"),
+            Constant::I32(value) => format!("{name} {value}"),
+        });
+        let all: Vec<String> = parts.chain(constants).collect();
+        format!("{file}: {}", all.join(", "))
+    }
+}
+
 /// All kernels that were built so far. They are small, and building one takes longer than a frame.
 #[derive(Debug, Default)]
 pub(crate) struct Kernels {

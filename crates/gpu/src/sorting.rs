@@ -17,8 +17,6 @@ pub(crate) enum Source {
     AsTheyCome,
     /// The device, by centroids.
     Centroids,
-    /// The device, by one proven key a cell.
-    Power,
     /// The CPU; the permutation is uploaded when it changed.
     Made,
 }
@@ -29,7 +27,6 @@ impl Source {
         match method {
             OrderMethod::None | OrderMethod::PerPixel => Self::AsTheyCome,
             OrderMethod::Centroid | OrderMethod::KBuffer { .. } => Self::Centroids,
-            OrderMethod::Power => Self::Power,
             _ => Self::Made,
         }
     }
