@@ -3,7 +3,11 @@
 mod device;
 mod error;
 mod kernel;
+mod lattice;
+mod view;
 
+#[cfg(test)]
+mod cell_tests;
 #[cfg(test)]
 mod testing;
 

@@ -7,4 +7,21 @@ macro_rules! sources {
     };
 }
 
-sources!["cell/cell.wgsl", "include/frame.wgsl", "include/list.wgsl", "integrate/light.wgsl",];
+sources![
+    "cell/cell.wgsl",
+    "cell/classify.wgsl",
+    "cell/corners.wgsl",
+    "cell/optics.wgsl",
+    "cell/outline.wgsl",
+    "cell/project.wgsl",
+    "cell/ray.wgsl",
+    "cell/sample.wgsl",
+    "cell/set_up.wgsl",
+    "cell/wide.wgsl",
+    "include/frame.wgsl",
+    "include/list.wgsl",
+    "integrate/light.wgsl",
+    "test/cell_classify.wgsl",
+    "test/cell_sample.wgsl",
+    "test/pieces.wgsl",
+];
