@@ -6,7 +6,8 @@ use tetrascope_view::View;
 
 /// A view as the twin sees it: its eye from the base, in f64.
 pub(super) struct Twin {
-    eye: DVec3,
+    /// From the base, local units.
+    pub(super) eye: DVec3,
     slope: [f64; 2],
     size: [u32; 2],
     is_perspective: bool,
