@@ -1,6 +1,5 @@
 //! A mesh and a field as the device holds them: whole numbers on a lattice, 16 bytes a point and 20 a cell.
 
-use glam::DVec3;
 use rayon::prelude::*;
 use tetrascope_mesh::{TetMesh, VertexId};
 use tetrascope_shaders::layout::{LATTICE_STEP, NEGATIVE_BIT};
@@ -136,10 +135,4 @@ fn scalar_factor([low, high]: [f64; 2]) -> f64 {
     } else {
         1.0
     }
-}
-
-/// The positions of points that a lattice stands for, local units.
-#[cfg(test)]
-pub(crate) fn positions(lattice: &Lattice) -> Vec<DVec3> {
-    lattice.vertices.iter().map(|v| DVec3::new(v[0].into(), v[1].into(), v[2].into()) * LATTICE_STEP).collect()
 }
