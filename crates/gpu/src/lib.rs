@@ -10,6 +10,7 @@ mod frame;
 mod kept;
 mod kernel;
 mod kernels;
+mod lattice;
 mod lookups;
 mod maps;
 mod mesh;
@@ -20,10 +21,13 @@ mod report;
 mod scan;
 mod sorting;
 mod stopwatch;
+mod view;
 mod work;
 
 #[cfg(test)]
 mod bins_tests;
+#[cfg(test)]
+mod cell_tests;
 #[cfg(test)]
 mod compact_tests;
 #[cfg(test)]

@@ -9,6 +9,15 @@ macro_rules! sources {
 
 sources![
     "cell/cell.wgsl",
+    "cell/classify.wgsl",
+    "cell/corners.wgsl",
+    "cell/optics.wgsl",
+    "cell/outline.wgsl",
+    "cell/project.wgsl",
+    "cell/ray.wgsl",
+    "cell/sample.wgsl",
+    "cell/set_up.wgsl",
+    "cell/wide.wgsl",
     "effects/axes.wgsl",
     "effects/carry.wgsl",
     "effects/cell_corners.wgsl",
@@ -75,8 +84,11 @@ sources![
     "raster/sorted.wgsl",
     "raster/staged.wgsl",
     "raster/tile.wgsl",
+    "test/cell_classify.wgsl",
+    "test/cell_sample.wgsl",
     "test/effects.wgsl",
     "test/integrate.wgsl",
     "test/outline.wgsl",
+    "test/pieces.wgsl",
     "test/volume_grey.wgsl",
 ];
