@@ -4,8 +4,8 @@ use bytemuck::{Pod, Zeroable};
 use glam::DVec3;
 use proptest::prelude::Rng;
 use proptest::test_runner::{RngAlgorithm, TestRng};
-use tetrascope_integrate::{Integrator, LengthAxis, RgbaAssoc, Segment, exact};
-use tetrascope_scene::Plan;
+use tetrascope_integrate::{Integrator, Isosurface, LengthAxis, RgbaAssoc, Segment, SurfaceShading, exact};
+use tetrascope_scene::{IsosurfacePlan, Plan};
 use tetrascope_shaders::Program;
 use tetrascope_view::{Camera, Projection, View};
 
@@ -447,4 +447,37 @@ fn lookups_are_kept_while_what_they_come_from_stays() {
     plan.tables = Some(TableSettings { scalars: 1024, lengths: 64, length_axis: LengthAxis::Linear });
     let too_large = Lookups::new(&gpu, &plan, &field(), &|_, _| ()).unwrap_err();
     assert!(matches!(too_large, GpuError::TooLarge { needed: 0x4000_0000, .. }), "{too_large}");
+}
+
+#[test]
+fn tables_stop_at_isosurfaces() {
+    let Some(gpu) = gpu() else { return };
+    let mut chance = Chance::new(2);
+    let mut plan = plan(chance.transfer(8, 5.0), OpticalModel::DensityEmitter, Integration::Table2d);
+    let without = plan.clone();
+    let color = [0.5; 3];
+    let surface =
+        |value, opacity| Isosurface { value, color, back_color: color, opacity, shading: SurfaceShading::None };
+    let surfaces = Isosurfaces::new(vec![surface(0.7, 1.0), surface(0.8, 0.0)]).unwrap();
+    let method = IsosurfaceMethod::Map { size: 64, mixing: Mixing::Stopped };
+    plan.isosurfaces = Some(IsosurfacePlan { surfaces: surfaces.clone(), method });
+
+    let segments: Vec<_> = (0..1000).map(|_| chance.segment(&[])).collect();
+    let seen = surfaces.visible().with_scalars_scaled(FACTOR);
+    let domain = TableDomain { scalars: RANGE, mean_length: LENGTHS.mean, max_length: LENGTHS.longest };
+    let settings = plan.table_settings().unwrap();
+    let stops = Some((&seen, SurfaceRole::Stop));
+    let table = Table2d::build(&scaled(&plan), plan.model, &domain, &settings, stops, &|_, _| ()).unwrap();
+    worst(&gpu, &plan, &segments, &|segment| table.look_up(segment), 1.0, 2e-6);
+    let (with, without_any) = (integrate(&gpu, &plan, &segments).0, integrate(&gpu, &without, &segments).0);
+    assert_ne!(with, without_any, "the volume behind the surface is not in it");
+
+    // What a surface looks like does not count, where it is does.
+    let lookups = Lookups::new(&gpu, &plan, &field(), &|_, _| ()).unwrap();
+    assert!(lookups.is_for(&plan) && !lookups.is_for(&without));
+    let moved = |value, opacity| {
+        let surfaces = Isosurfaces::new(vec![surface(value, opacity)]).unwrap();
+        Plan { isosurfaces: Some(IsosurfacePlan { surfaces, method }), ..plan.clone() }
+    };
+    assert!(lookups.is_for(&moved(0.7, 0.5)) && !lookups.is_for(&moved(0.71, 1.0)));
 }
