@@ -85,7 +85,7 @@ fn volume(cell: Optics, front: f32, back: f32, length: f32) -> Light {
         // With one piece the share is 1 but for rounding.
         let part_length = length * select(part.share, 1.0, cell.count == 1u);
         if (part_length > 0.0) {
-            sums = with_part(sums, value_in(piece, part.low), value_in(piece, part.high), part_length);
+            sums = with_part(sums, value_by(piece, part.at_low), value_by(piece, part.at_high), part_length);
         }
     }
     return light_of(sums, front <= back);

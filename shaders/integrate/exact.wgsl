@@ -3,10 +3,8 @@
 #use integrate/parts.wgsl
 #use <model>
 
-// The light of a part of a segment within one piece.
-fn volume_in(piece: LocalPiece, front: f32, back: f32, length: f32) -> Light {
-    let at_front = shares_at(piece, front);
-    let at_back = shares_at(piece, back);
+// The light of a part of a segment within one piece; how much the piece's values count at its front and at its back.
+fn volume_in(piece: LocalPiece, at_front: vec2<f32>, at_back: vec2<f32>, length: f32) -> Light {
     let extinction = vec2<f32>(dot(piece.extinction, at_front), dot(piece.extinction, at_back));
     let weights = model_linear(extinction, length);
     let counts = at_front * weights.front + at_back * weights.back;
@@ -15,7 +13,8 @@ fn volume_in(piece: LocalPiece, front: f32, back: f32, length: f32) -> Light {
 
 fn volume(cell: Optics, front: f32, back: f32, length: f32) -> Light {
     if (cell.count == 1u) {
-        return volume_in(local_piece(cell.first, cell.reference), front, back, length);
+        let piece = local_piece(cell.first, cell.reference);
+        return volume_in(piece, shares_at(piece, front), shares_at(piece, back), length);
     }
     // In ascending order; where the scalar falls along the ray, each piece lies in front of those before.
     let rises = front <= back;
@@ -26,7 +25,9 @@ fn volume(cell: Optics, front: f32, back: f32, length: f32) -> Light {
         let part = part_in(parts, piece, index, cell.count);
         let part_length = length * part.share;
         if (part_length > 0.0) {
-            let next = volume_in(piece, select(part.high, part.low, rises), select(part.low, part.high, rises), part_length);
+            let at_front = select(part.at_high, part.at_low, rises);
+            let at_back = select(part.at_low, part.at_high, rises);
+            let next = volume_in(piece, at_front, at_back, part_length);
             let behind = light.rgb + light.transmittance * next.rgb;
             let before = next.rgb + next.transmittance * light.rgb;
             light = Light(select(before, behind, rises), light.transmittance * next.transmittance);

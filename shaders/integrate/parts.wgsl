@@ -10,8 +10,9 @@ struct Parts {
 
 // What a segment has in one piece.
 struct Part {
-    low: f32,
-    high: f32,
+    // How much the values at the piece's start and end count at the lowest scalar, and at the highest.
+    at_low: vec2<f32>,
+    at_high: vec2<f32>,
     // Share of the segment's length.
     share: f32,
 }
@@ -37,6 +38,14 @@ fn part_in(parts: Parts, piece: LocalPiece, index: u32, count: u32) -> Part {
     let high = clamp(parts.high, start, max(start, end));
     // A flat segment lies in one piece as a whole, in the upper one when it lies on a cut.
     let holds = (is_first || parts.high >= piece.start) && (is_last || parts.high < piece.end);
-    let share = select((high - low) * parts.inverse, select(0.0, 1.0, holds), parts.inverse == 0.0);
-    return Part(low, high, share);
+    // Of a piece that is met as a whole, ends and width as they are, not as far as floats of the cell's range tell them apart.
+    let from_start = parts.low <= piece.start;
+    let to_end = parts.high >= piece.end;
+    let is_whole = from_start && to_end && !is_first && !is_last;
+    let width = select(high - low, piece.width, is_whole);
+    return Part(
+        select(shares_at(piece, low), vec2<f32>(1.0, 0.0), from_start && !is_first),
+        select(shares_at(piece, high), vec2<f32>(0.0, 1.0), to_end && !is_last),
+        select(width * parts.inverse, select(0.0, 1.0, holds), parts.inverse == 0.0),
+    );
 }

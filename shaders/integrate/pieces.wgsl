@@ -16,6 +16,8 @@
 struct LocalPiece {
     start: f32,
     end: f32,
+    // From start to end; the difference of those two is rounded where the piece is far from the reference.
+    width: f32,
     inverse_width: f32,
     // At start and end.
     extinction: vec2<f32>,
@@ -40,6 +42,7 @@ fn local_piece(index: u32, reference: i32) -> LocalPiece {
     return LocalPiece(
         local_scalar(ends.x, reference),
         local_scalar(ends.y, reference),
+        f32(ends.y - ends.x) * LATTICE_STEP,
         bitcast<f32>(at_end.w),
         bitcast<vec2<f32>>(ends.zw),
         bitcast<vec3<f32>>(at_start.xyz),
@@ -47,13 +50,15 @@ fn local_piece(index: u32, reference: i32) -> LocalPiece {
     );
 }
 
-// How much the values at a piece's start and end count at a scalar.
+// How much the values at a piece's start and end count at a scalar: the smaller share by itself, so that it keeps its digits, and the
+// other so that both add up to 1, however narrow the piece is beside the cell.
 fn shares_at(piece: LocalPiece, scalar: f32) -> vec2<f32> {
-    return saturate(vec2<f32>(piece.end - scalar, scalar - piece.start) * piece.inverse_width);
+    let shares = vec2<f32>(piece.end - scalar, scalar - piece.start) * piece.inverse_width;
+    let smaller = saturate(min(shares.x, shares.y));
+    return select(vec2<f32>(smaller, 1.0 - smaller), vec2<f32>(1.0 - smaller, smaller), shares.y < shares.x);
 }
 
-fn value_in(piece: LocalPiece, scalar: f32) -> Value {
-    let shares = shares_at(piece, scalar);
+fn value_by(piece: LocalPiece, shares: vec2<f32>) -> Value {
     return Value(dot(piece.extinction, shares), piece.color_start * shares.x + piece.color_end * shares.y);
 }
 
@@ -80,5 +85,6 @@ fn find_pieces(reference: i32, low: f32, high: f32) -> vec2<u32> {
 // Extinction and color at a scalar within a cell's range; on a step, those above.
 fn transfer_at(cell: Optics, scalar: f32) -> Value {
     let index = last_piece(cell.first, cell.count, cell.reference, scalar, true);
-    return value_in(local_piece(index, cell.reference), scalar);
+    let piece = local_piece(index, cell.reference);
+    return value_by(piece, shares_at(piece, scalar));
 }
