@@ -5,6 +5,8 @@ mod compact;
 mod device;
 mod error;
 mod kernel;
+mod keys;
+mod power_functions;
 mod radix;
 mod scan;
 
@@ -12,6 +14,10 @@ mod scan;
 mod bins_tests;
 #[cfg(test)]
 mod compact_tests;
+#[cfg(test)]
+mod keys_tests;
+#[cfg(test)]
+mod power_functions_tests;
 #[cfg(test)]
 mod radix_tests;
 #[cfg(test)]
