@@ -1,7 +1,7 @@
 // Keys of the order by centroids: its squared distance from the eye, or its depth in an orthographic view.
 //
-// One invocation makes one entry's key. The squared distance c·c - 2 c·e + e·e is taken without e·e, which all cells share, so that far eyes
-// still tell neighbors apart; f32, rounded to about 2^-23 of its size. The depth is exact: the mean of whole numbers, rounded down.
+// One invocation makes one entry's key. The squared distance c·c - 2 c·e + e·e is taken without e·e, which all cells share, so that far
+// eyes still tell neighbors apart; f32, rounded to about 2^-23 of its size. The depth is exact: the mean of whole numbers, rounded down.
 //
 // in: frame, points, cells, order, totals[0], work.most; out: keys (ascending: front to back).
 

@@ -2,8 +2,8 @@
 //
 // One invocation makes one word of one entry's key: `power_keys_low` the lower, `power_keys_high` the higher 32 bits.
 //
-// in: power_cells (two entries a cell: gradient x, y, z and constant, 64 bits each, low word first), power_view (see `layout::PowerView`), order,
-// totals[0], work.most; out: keys (ascending: front to back).
+// in: power_cells (two entries a cell: gradient x, y, z and constant, 64 bits each, low word first), power_view (see
+// `layout::PowerView`), order, totals[0], work.most; out: keys (ascending: front to back).
 
 #use include/list.wgsl
 #use include/work.wgsl

@@ -18,7 +18,7 @@ const ANGLE: f64 = 1e-6;
 const LATTICE: f64 = 1.0 / (1_u64 << 27) as f64;
 /// Bits that keys keep whatever faces need: cells that see each other through a gap share none.
 const FEWEST_BITS: u32 = 40;
-/// Exponents beyond which scales are not looked for.
+/// Beyond this, exponents of scales are refused; that of 0 is the negative.
 const EXPONENT: i32 = 400;
 
 /// Why the order is not made on the device.
@@ -93,11 +93,12 @@ impl PowerFunctions {
         let reach = cells.tetrahedra.par_iter().flatten_iter();
         let reach = reach.map(|v| cells.positions[v.index()].distance(center)).reduce(|| 0.0, f64::max);
         let is_finite = steepest.is_finite() && highest.is_finite() && reach.is_finite();
-        let gradient_exponent = GRADIENT_BITS - exponent(steepest);
-        let constant_exponent = (CONSTANT_BITS - exponent(highest) - gradient_exponent).min(-exponent(reach));
+        // What is 0 takes any scale.
+        let exponent_of = |value: f64| if value > 0.0 { exponent(value) } else { 0 };
+        let gradient_exponent = GRADIENT_BITS - exponent_of(steepest);
+        let constant_exponent = (CONSTANT_BITS - exponent_of(highest) - gradient_exponent).min(-exponent_of(reach));
         let exponents = [gradient_exponent, constant_exponent, gradient_exponent + constant_exponent];
-        let is_usual = steepest > 0.0 && reach > 0.0 && exponents.iter().all(|e| e.abs() < EXPONENT);
-        if !(functions.is_empty() || is_finite && is_usual) {
+        if !is_finite || exponents.iter().any(|e| e.abs() >= EXPONENT) {
             return Err(NotResolved::OutOfRange);
         }
         let scales = [gradient_exponent, gradient_exponent + constant_exponent].map(|e| 2.0_f64.powi(e));

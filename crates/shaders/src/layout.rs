@@ -8,10 +8,7 @@ use bytemuck::{Pod, Zeroable};
 
 use crate::constants::Constant;
 
-#[path = "layout_order.rs"]
-mod order;
-
-pub use order::{Block, LIST_BLOCK, LIST_ITEMS, PAIRS_WRITTEN, PowerView, RADIX_BITS, Work};
+pub use crate::layout_order::{Block, LIST_BLOCK, LIST_ITEMS, PAIRS_WRITTEN, PowerView, RADIX_BITS, Work};
 
 /// One step of the lattice of positions and scalars, in local units.
 pub const LATTICE_STEP: f64 = 1.0 / (1u64 << 29) as f64;

@@ -5,7 +5,7 @@ use bytemuck::{Pod, Zeroable};
 /// Consecutive entries of a list that one thread of a stage works on.
 pub const LIST_ITEMS: u32 = 8;
 /// Entries that one group works on.
-pub const LIST_BLOCK: u32 = LIST_ITEMS * super::GROUP;
+pub const LIST_BLOCK: u32 = LIST_ITEMS * crate::layout::GROUP;
 /// Bits of a key that one pass of the sort looks at: a thread of a group has one digit's counts.
 pub const RADIX_BITS: u32 = 8;
 /// Place in `totals` of the number of pairs that were written: all that were needed, or none.
