@@ -1,7 +1,7 @@
 // Entries that are kept move up, in the order in which they come.
 //
-// One group works on LIST_BLOCK entries. `compact_count`: how many each block keeps; between the two stages these become prefix sums; `compact_write`:
-// the entries.
+// One group works on LIST_BLOCK entries. `compact_count`: how many each block keeps; between the two stages these become prefix sums;
+// `compact_write`: the entries.
 //
 // in: work.most entries of kept (NOTHING for none); between: compact_counts (one a block); out: order, totals[0] (how many).
 

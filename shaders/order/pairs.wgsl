@@ -1,12 +1,12 @@
 // Pairs of tile and cell: which tiles each cell of the draw block may show in.
 //
-// One invocation looks at one cell; cells of many tiles are left to all threads of the group together. `pairs_count`: how many tiles each cell has;
-// between the two stages these become prefix sums; `pairs_write`: the pairs, cell by cell. Tiles of one cell may come in any order: pairs are
-// sorted by tile afterwards, and a cell has each tile once.
+// One invocation looks at one cell; cells of many tiles are left to all threads of the group together. `pairs_count`: how many tiles each
+// cell has; between the two stages these become prefix sums; `pairs_write`: the pairs, cell by cell. Tiles of one cell may come in any
+// order: pairs are sorted by tile afterwards, and a cell has each tile once.
 //
-// in: frame, block, drawn (and what the outline's file takes), work.most (cells that there is room for); between: pair_starts
-// (one more than work.most); out: pair_tiles and tile_items (tile, place in drawn), totals[1] (pairs that are needed, the most of all draws since it was
-// cleared), totals[PAIRS_WRITTEN] (the pairs, or 0 if there is not enough room; nothing is written then).
+// in: frame, block, drawn (and what the outline's file takes), work.most (cells that there is room for); between: pair_starts (one more
+// than work.most); out: pair_tiles and tile_items (tile, place in drawn), totals[1] (pairs that are needed, the most of all draws since
+// it was cleared), totals[PAIRS_WRITTEN] (the pairs, or 0 if there is not enough room; nothing is written then).
 
 #use include/frame.wgsl
 #use include/list.wgsl

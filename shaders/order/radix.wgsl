@@ -1,11 +1,11 @@
 // One pass of a stable radix sort: entries by the RADIX_BITS bits of their keys from bit work.shift on.
 //
-// One group works on LIST_BLOCK entries, LIST_ITEMS consecutive ones a thread. `radix_count`: how often each block has each digit; between the two stages these
-// become prefix sums, digit by digit and block by block within; `radix_scatter`: sorts the block in workgroup memory, so that what is written together lies
-// together. `radix_copy`: the lists as they are, after an odd number of passes.
+// One group works on LIST_BLOCK entries, LIST_ITEMS consecutive ones a thread. `radix_count`: how often each block has each digit;
+// between the two stages these become prefix sums, digit by digit and block by block within; `radix_scatter`: sorts the block in
+// workgroup memory, so that what is written together lies together. `radix_copy`: the lists as they are, after an odd number of passes.
 //
-// Ranks within a block come from counters that each thread has for itself and sums over them, four bits at a time: no atomic decides a place, and the
-// result has the same bits every time. (Those of the counts add up to the same in any order.)
+// Ranks within a block come from counters that each thread has for itself and sums over them, four bits at a time: no atomic decides a
+// place, and the result has the same bits every time. (Those of the counts add up to the same in any order.)
 //
 // in: radix_keys_in, radix_order_in, count in totals[work.count_at], never more than work.most; between: radix_counts (256 a block);
 // out: radix_keys_out, radix_order_out.

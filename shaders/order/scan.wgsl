@@ -1,7 +1,7 @@
 // Prefix sums, in place: every entry becomes the sum of those before it. Sums that exceed 32 bits become the largest number.
 //
-// One group works on LIST_BLOCK entries. `scan_reduce`: sum of each block; those are summed up likewise, level by level; `scan_apply`: each block
-// from the sum before it. `scan_top`: a list of one block. The same bits every time: no sum depends on who comes first.
+// One group works on LIST_BLOCK entries. `scan_reduce`: sum of each block; those are summed up likewise, level by level; `scan_apply`:
+// each block from the sum before it. `scan_top`: a list of one block. The same bits every time: no sum depends on who comes first.
 //
 // in: work.most entries; in and out: scan_values (entries), scan_sums (one a block).
 

@@ -50,8 +50,8 @@ pub(crate) struct BinsSize {
 
 /// Lists the cells of a draw block tile by tile, in their order: `tile_starts` and `tile_items`.
 ///
-/// If `totals[1]` is beyond `block.capacity` afterwards, or beyond the room here, all tiles are empty, and it is how many pairs are needed. It keeps the most of all
-/// draws until it is cleared.
+/// If `totals[1]` is beyond `block.capacity` afterwards, or beyond the room here, all tiles are empty, and it is how many pairs are
+/// needed. It keeps the most of all draws until it is cleared.
 ///
 /// Takes 12.5 bytes a pair and 4 a cell beside the lists.
 #[derive(Debug)]

@@ -10,11 +10,13 @@ mod frame;
 mod kept;
 mod kernel;
 mod kernels;
+mod keys;
 mod lattice;
 mod lookups;
 mod maps;
 mod mesh;
 mod part;
+mod power_functions;
 mod radix;
 mod renderer;
 mod report;
@@ -30,6 +32,10 @@ mod bins_tests;
 mod cell_tests;
 #[cfg(test)]
 mod compact_tests;
+#[cfg(test)]
+mod keys_tests;
+#[cfg(test)]
+mod power_functions_tests;
 #[cfg(test)]
 mod radix_tests;
 #[cfg(test)]

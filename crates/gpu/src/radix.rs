@@ -26,7 +26,8 @@ pub(crate) struct RadixLists<'a> {
 
 /// Sorts a list by 32-bit keys, lowest first; entries with equal keys stay as they come. The same bits every time.
 ///
-/// Longer keys: sort by their lower words, make the higher words for the entries as they lie then, and sort again. Takes 8.5 bytes an entry beside the lists.
+/// Longer keys: sort by their lower words, make the higher words for the entries as they lie then, and sort again. Takes 8.5 bytes an
+/// entry beside the lists.
 #[derive(Debug)]
 pub(crate) struct RadixSort {
     kernels: Arc<ListKernels>,

@@ -82,6 +82,11 @@ impl CellKey {
         self.gradient
     }
 
+    /// The value of the function at the center.
+    pub(super) fn constant(&self) -> f64 {
+        self.constant
+    }
+
     /// The function through the heights of four corners, and whether it is as precise as f64 holds it. A cell without volume has
     /// none; it gets the key of `|p|²` at its centroid, so that it lies among its neighbors on a Delaunay mesh.
     pub(super) fn new(positions: [DVec3; 4], heights: [f64; 4], center: DVec3) -> (Self, bool) {

@@ -142,6 +142,22 @@ impl Power {
         self.certificate
     }
 
+    /// The point that the functions of cells are counted from, in the coordinates of the mesh.
+    pub fn center(&self) -> DVec3 {
+        self.center
+    }
+
+    /// A cell's affine function as gradient and constant: `constant + gradient · (p - center)`, larger for the nearer of two cells
+    /// that share a face. Rounded to f64; along a direction the cell with the lower slope is nearer.
+    ///
+    /// # Panics
+    ///
+    /// If there is no such cell.
+    pub fn function(&self, cell: CellId) -> (DVec3, f64) {
+        let key = &self.keys[cell.index()];
+        (key.gradient(), key.constant())
+    }
+
     fn rest(&self, cells: Cells<'_>, cell: CellId) -> Rest {
         let corners = cells.tetrahedra[cell.index()];
         let positions = corners.map(|v| cells.positions[v.index()]);
