@@ -388,20 +388,56 @@ fn surfaces_cut_segments() {
 #[test]
 fn surfaces_are_lit() {
     let Some(gpu) = gpu() else { return };
-    let direction = Some(DVec3::new(0.48, -0.6, 0.64));
+    let direction = Some(DVec3::new(-0.48, 0.6, -0.64));
     for shading in [
         [SurfaceShading::Flat, SurfaceShading::None],
         [SurfaceShading::Smooth; 2],
         [SurfaceShading::Smooth, SurfaceShading::Flat],
     ] {
-        for (direction, shininess) in [(None, 4.0), (direction, 0.0), (direction, 8.0)] {
+        for (direction, shininess) in [(None, 4.0), (direction, 0.0), (direction, 8.0), (direction, 200.0)] {
             for volume in [false, true] {
                 let lighting = Some(lighting(direction, volume, shininess));
                 let plan = plan(several(3, 0.4, shading), IsosurfaceMethod::Exact, lighting);
                 let error = compare(&gpu, &plan, 4, &format!("lit {shading:?}, {shininess}, volume {volume}"));
-                assert!(error < 1e-5, "{error}");
+                // A sharp highlight magnifies the rounding of directions.
+                assert!(error < 2e-6 + 2e-7 * shininess, "{error}");
             }
         }
+    }
+}
+
+/// Flat light in cells so thin that the differences of f32 alone would tilt their normals.
+#[test]
+fn thin_cells_keep_their_normals() {
+    let Some(gpu) = gpu() else { return };
+    let flat = surface(&mut Dice(20), 0.0, 1.0, SurfaceShading::Flat);
+    let plan = plan(vec![flat], IsosurfaceMethod::Exact, Some(lighting(Some(DVec3::Z), false, 2.0)));
+    let effects = Effects::new(&gpu, &plan, UNITS, None).unwrap();
+    for thickness in [1e-1, 1e-2, 1e-3, 1e-4, 1e-5] {
+        let mut dice = Dice(21);
+        let mut scene = Scene { is_perspective: true, ..Scene::default() };
+        for _ in 0..1000 {
+            let (first, b, c, gradient) = (dice.vector(0.3), dice.vector(0.4), dice.vector(0.4), dice.vector(0.5));
+            let normal = b.cross(c);
+            if normal.length() < 0.02 {
+                continue;
+            }
+            let d = b * dice.between(0.1, 0.6) + c * dice.between(0.1, 0.4) + normal.normalize() * thickness;
+            let corners = [first, first + b, first + c, first + d];
+            let middle = corners.iter().sum::<DVec3>() / 4.0;
+            scene.add(&mut dice, corners, corners.map(|corner| gradient.dot(corner - middle)));
+            let reference = f64::from(scene.segments.last().unwrap().reference) * LATTICE_STEP;
+            let segment = scene.segments.last_mut().unwrap();
+            (segment.scalars, segment.length) = ([-0.5, 0.5].map(|scalar| (scalar - reference) as f32), 0.01);
+        }
+        let twin = Twin { scene: &scene, plan: &plan, effects: &effects };
+        let mut worst = 0.0_f64;
+        for (ray, (light, _)) in drawn(&gpu, &scene, &effects, true).into_iter().enumerate() {
+            let known = twin.ray(scene.rays[ray]).0;
+            worst = (0..3).fold(worst, |worst, c| worst.max((f64::from(light[c]) - known.rgb[c]).abs()));
+        }
+        println!("flat, cells {thickness} thick: {worst:.1e}");
+        assert!(worst < if thickness < 5e-5 { 1e-4 } else { 1e-6 }, "{worst} in cells {thickness} thick");
     }
 }
 
@@ -481,7 +517,8 @@ fn a_surface_at_a_joint_is_met_once() {
     let moved: Vec<f64> = maps.surfaces().as_slice().iter().map(|surface| surface.value).collect();
     let scene = chains(&mut dice, &moved.iter().map(|value| value + 1.8e-5).collect::<Vec<_>>());
     for (ray, (light, crossings)) in drawn(&gpu, &scene, &maps, true).into_iter().enumerate() {
-        assert_eq!((crossings, light[3]), (1, 0.5), "ray {ray} with maps");
+        // The two passes of a map multiply to it.
+        assert!(crossings == 1 && (light[3] - 0.5).abs() < 1e-6, "ray {ray} with maps: {crossings}, {light:?}");
     }
     for (ray, (_, crossings)) in drawn(&gpu, &scene, &maps, false).into_iter().enumerate() {
         assert!(crossings >= 1, "ray {ray} misses its surface in a map where no joint is carried");
