@@ -1,7 +1,8 @@
-// The direction of a cell's constant gradient along the camera's axes, of no particular length and sign; zero where the scalar is constant.
+// The direction of a cell's constant gradient along the camera's axes, of no particular length and sign; zero where the scalar is
+// constant.
 //
-// The sum of the edges' cross products loses digits in a thin cell, where these are nearly parallel: the share of its thickness. There what the
-// first result leaves of the scalars' differences is computed in whole numbers, without rounding, and gives a correction.
+// The sum of the edges' cross products loses digits in a thin cell, where these are nearly parallel: the share of its thickness. There
+// what the first result leaves of the scalars' differences is computed in whole numbers, without rounding, and gives a correction.
 //
 // All in lattice steps, of which products of four stay within f32.
 

@@ -2,193 +2,19 @@
 
 use std::sync::Arc;
 
-use tetrascope_integrate::surface::{IsosurfaceMap, SmoothMaps};
-use tetrascope_integrate::{OpticalModel, Phong, RgbaAssoc, Segment, TransferFunction};
 use tetrascope_scene::{IsosurfacePlan, Mixing};
 use tetrascope_shaders::Program;
-use tetrascope_shaders::layout::{Frame, UNIT};
-use tetrascope_view::View;
 
 use super::*;
 use crate::kernel::Kernel;
 use crate::testing::{checked, contents, gpu};
+use scene::{Dice, Scene, TestSegment, UNITS, frame, lighting, plan, surface};
+use twin::Twin;
 
-const PIXEL: f64 = 0.004;
-const START: f64 = 1.5;
-const EYE: DVec3 = DVec3::new(0.1, -0.2, -3.0);
-const RANGE: [f64; 2] = [-0.9, 0.9];
-const UNITS: ScalarUnit = ScalarUnit { factor: 1.0, range: RANGE, middle: 0.0 };
-
-/// Numbers that look random, the same every time.
-struct Dice(u64);
-
-impl Dice {
-    fn between(&mut self, low: f64, high: f64) -> f64 {
-        self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-        low + (high - low) * ((self.0 >> 11) as f64 / (1u64 << 53) as f64)
-    }
-
-    fn vector(&mut self, size: f64) -> DVec3 {
-        DVec3::new(self.between(-size, size), self.between(-size, size), self.between(-size, size))
-    }
-
-    fn color(&mut self) -> [f64; 3] {
-        [(); 3].map(|()| f64::from(self.between(0.0, 1.0) as f32))
-    }
-}
-
-/// As `TestSegment` of the shader.
-#[derive(Clone, Copy, Debug, Default, bytemuck::Pod, bytemuck::Zeroable)]
-#[repr(C)]
-struct TestSegment {
-    vertices: [u32; 4],
-    scalars: [f32; 2],
-    depth: [f32; 2],
-    center: [f32; 2],
-    length: f32,
-    reference: i32,
-}
-
-/// Cells, gradients at their points, and rays through them.
-#[derive(Default)]
-struct Scene {
-    points: Vec<[i32; 4]>,
-    gradients: Vec<[f32; 4]>,
-    segments: Vec<TestSegment>,
-    rays: Vec<[u32; 2]>,
-    is_perspective: bool,
-}
-
-fn axes() -> [DVec3; 3] {
-    let right = DVec3::new(0.6, 0.64, 0.48);
-    let down = DVec3::new(-0.8, 0.48, 0.36);
-    [right, down, right.cross(down)]
-}
-
-fn frame(is_perspective: bool) -> Frame {
-    let axis = |axis: DVec3| [axis.x, axis.y, axis.z, 0.0].map(|x| (x * UNIT).round() as i32);
-    let [right, down, forward] = axes().map(axis);
-    let slope = if is_perspective { PIXEL as f32 } else { 0.0 };
-    Frame {
-        right,
-        down,
-        forward,
-        eye: [EYE.x as f32, EYE.y as f32, EYE.z as f32, START as f32],
-        slope: [slope, slope, PIXEL as f32, PIXEL as f32],
-        is_perspective: u32::from(is_perspective),
-        ..Frame::default()
-    }
-}
-
-impl Scene {
-    /// One ray through each of so many cells of their own, from a first to a last share of what the cell has of it.
-    fn random(dice: &mut Dice, cells: usize, is_perspective: bool) -> Self {
-        let mut scene = Self { is_perspective, ..Self::default() };
-        for _ in 0..cells {
-            let middle = dice.vector(0.3);
-            let corners = [(); 4].map(|()| middle + dice.vector(0.25));
-            let volume = (corners[1] - corners[0]).dot((corners[2] - corners[0]).cross(corners[3] - corners[0]));
-            if volume.abs() > 1e-3 {
-                let scalars = [(); 4].map(|()| dice.between(RANGE[0], RANGE[1]));
-                scene.add(dice, corners, scalars);
-            }
-        }
-        scene
-    }
-
-    fn add(&mut self, dice: &mut Dice, corners: [DVec3; 4], scalars: [f64; 4]) {
-        let first = self.points.len() as u32;
-        for (corner, scalar) in corners.iter().zip(scalars) {
-            let [x, y, z] = corner.to_array().map(|x| (x / LATTICE_STEP).round() as i32);
-            self.points.push([x, y, z, UNITS.to_lattice(scalar)]);
-            // Not all around: where they cancel, the sum has no direction to compare.
-            let g = DVec3::new(1.0, -2.0, 0.5) + dice.vector(1.0);
-            self.gradients.push([g.x as f32, g.y as f32, g.z as f32, 0.0]);
-        }
-        let vertices = [first, first + 1, first + 2 | 1 << 31, first + 3 | 1 << 31];
-        let corners = self.corners(vertices);
-        let inside = corners.iter().zip([0.2, 0.3, 0.1, 0.4]).map(|(c, share)| *c * share).sum::<DVec3>() - EYE;
-        let depth = if self.is_perspective { inside.z } else { 1.0 };
-        let center = [inside.x / depth / PIXEL, inside.y / depth / PIXEL].map(|x| x as f32);
-        let reference = self.points[first as usize][3];
-        let mut segment = TestSegment { vertices, center, reference, ..TestSegment::default() };
-        // The ray against the four faces: where the shares of the corners change their signs.
-        let mut span = [0.0_f64, 10.0];
-        let (at_eye, far) = (self.shares(&segment, -START), self.shares(&segment, 1.0 - START));
-        for corner in 0..4 {
-            let slope = far[corner] - at_eye[corner];
-            let depth = -at_eye[corner] / slope;
-            if slope > 0.0 { span[0] = span[0].max(depth) } else { span[1] = span[1].min(depth) }
-        }
-        segment.depth = span.map(|depth| (depth - START) as f32);
-        segment.scalars = span.map(|depth| {
-            let shares = self.shares(&segment, depth - START);
-            let scalar = |corner: usize| f64::from(self.points[first as usize + corner][3] - reference) * LATTICE_STEP;
-            (0..4).map(|corner| shares[corner] * scalar(corner)).sum::<f64>() as f32
-        });
-        segment.length = (span[1] - span[0]) as f32;
-        self.rays.push([self.segments.len() as u32, 1]);
-        self.segments.push(segment);
-    }
-
-    fn corners(&self, vertices: [u32; 4]) -> [DVec3; 4] {
-        vertices.map(|v| {
-            let [x, y, z, _] = self.points[(v & !(1 << 31)) as usize].map(f64::from);
-            DVec3::new(x, y, z) * LATTICE_STEP
-        })
-    }
-
-    /// How much each corner counts where a segment's ray is at a depth.
-    fn shares(&self, segment: &TestSegment, depth: f64) -> [f64; 4] {
-        let from_eye = depth + START;
-        let [x, y] = segment.center.map(|x| f64::from(x) * PIXEL);
-        let spread = if self.is_perspective { from_eye } else { 1.0 };
-        let place = EYE + DVec3::new(x * spread, y * spread, from_eye);
-        let [a, b, c, d] = self.corners(segment.vertices);
-        let volume = (b - a).dot((c - a).cross(d - a));
-        let p = place - a;
-        let b_share = p.dot((c - a).cross(d - a)) / volume;
-        let c_share = p.dot((d - a).cross(b - a)) / volume;
-        let d_share = p.dot((b - a).cross(c - a)) / volume;
-        [1.0 - b_share - c_share - d_share, b_share, c_share, d_share]
-    }
-
-    fn scalar_bounds(&self, segment: &TestSegment) -> [i32; 2] {
-        let scalars = segment.vertices.map(|v| self.points[(v & !(1 << 31)) as usize][3]);
-        [scalars.into_iter().min().unwrap(), scalars.into_iter().max().unwrap()]
-    }
-}
-
-fn surface(dice: &mut Dice, value: f64, opacity: f64, shading: SurfaceShading) -> Isosurface {
-    Isosurface { value, color: dice.color(), back_color: dice.color(), opacity, shading }
-}
-
-fn plan(surfaces: Vec<Isosurface>, method: IsosurfaceMethod, lighting: Option<Lighting>) -> Plan {
-    let [right, down, forward] = axes();
-    let (half_width, half_height) = (1.0, 1.0);
-    let view = View {
-        eye: EYE,
-        right,
-        up: -down,
-        forward,
-        half_width,
-        half_height,
-        is_perspective: true,
-        width: 8,
-        height: 8,
-    };
-    let transfer = TransferFunction::new(&[[0.0; 4]], &[[0.0; 2]]).unwrap();
-    let mut plan = Plan::new(view, transfer, OpticalModel::DensityEmitter);
-    if !surfaces.is_empty() {
-        plan.isosurfaces = Some(IsosurfacePlan { surfaces: Isosurfaces::new(surfaces).unwrap(), method });
-    }
-    plan.lighting = lighting;
-    plan
-}
-
-fn lighting(direction: Option<DVec3>, volume: bool, shininess: f64) -> Lighting {
-    Lighting { phong: Phong { ambient: 0.25, diffuse: 0.625, specular: 0.375, shininess }, direction, volume }
-}
+#[path = "effects_tests/scene.rs"]
+mod scene;
+#[path = "effects_tests/twin.rs"]
+mod twin;
 
 fn program(effects: &Effects, carries_joints: bool) -> Program {
     let mut slots = effects.slots();
@@ -219,128 +45,6 @@ fn drawn(gpu: &Gpu, scene: &Scene, effects: &Effects, carries_joints: bool) -> V
         let counts: Vec<u32> = contents(gpu, gpu.encoder("test"), &buffers[5].1, rays);
         lights.into_iter().zip(counts).collect()
     })
-}
-
-/// What the shaders are to give, in 64 bits.
-struct Twin<'a> {
-    scene: &'a Scene,
-    plan: &'a Plan,
-    effects: &'a Effects,
-}
-
-impl Twin<'_> {
-    fn ray(&self, ray: [u32; 2]) -> (RgbaAssoc, u32) {
-        let mut light = RgbaAssoc::TRANSPARENT;
-        let mut crossings = 0;
-        for segment in &self.scene.segments[ray[0] as usize..(ray[0] + ray[1]) as usize] {
-            let next = if self.effects.maps.is_some() {
-                self.looked_up(segment, &mut crossings)
-            } else {
-                self.cut(segment, &mut crossings)
-            };
-            light = light.over(next);
-        }
-        (light, crossings)
-    }
-
-    fn cut(&self, segment: &TestSegment, crossings: &mut u32) -> RgbaAssoc {
-        let [low, high] = self.scene.scalar_bounds(segment);
-        let tolerance = 1e-5 * f64::from(high - low) * LATTICE_STEP + 2e-6;
-        let local = |surface: &Isosurface| Isosurface {
-            value: f64::from(UNITS.to_lattice(surface.value) - segment.reference) * LATTICE_STEP - tolerance,
-            ..*surface
-        };
-        let surfaces = Isosurfaces::new(self.effects.drawn.as_slice().iter().map(local).collect()).unwrap();
-        let [scalar_front, scalar_back] = segment.scalars.map(f64::from);
-        let whole = Segment { scalar_front, scalar_back, chord_length: f64::from(segment.length) };
-        let intensity = self.volume_intensity(segment);
-        surfaces.compose(
-            surfaces.ranks(&whole),
-            &whole,
-            |part| grey(part, intensity),
-            |crossing| {
-                *crossings += 1;
-                let [front, back] = segment.depth.map(f64::from);
-                let depth = front + (back - front) * crossing.share;
-                let [body, highlight] = self.intensities(segment, depth, crossing.surface.shading);
-                crossing.color.map(|channel| channel * body + highlight)
-            },
-        )
-    }
-
-    fn looked_up(&self, segment: &TestSegment, crossings: &mut u32) -> RgbaAssoc {
-        let Some(IsosurfaceMethod::Map { size, mixing }) = self.effects.key.method else { panic!("maps") };
-        let surfaces = &self.effects.key.surfaces;
-        let reference = f64::from(segment.reference) * LATTICE_STEP;
-        let [scalar_front, scalar_back] = segment.scalars.map(|scalar| f64::from(scalar) + reference);
-        let length = f64::from(segment.length);
-        let [front, back] = segment.scalars.map(f64::from);
-        let local = Segment { scalar_front: front, scalar_back: back, chord_length: length };
-        let volume = grey(&local, self.volume_intensity(segment));
-        let whole = Segment { scalar_front, scalar_back, chord_length: length };
-        let at = |depth: f32| self.intensities(segment, f64::from(depth), surfaces.shading());
-        let lit = |light: RgbaAssoc, [body, highlight]: [f64; 2]| RgbaAssoc {
-            rgb: light.rgb.map(|channel| channel * body + highlight * light.opacity),
-            ..light
-        };
-        let [depth_front, depth_back] = segment.depth;
-        if mixing == Mixing::Stopped && surfaces.shading() != SurfaceShading::Smooth {
-            let near = IsosurfaceMap::new(surfaces, RANGE, size).unwrap().look_up(&whole);
-            *crossings += u32::from(near.opacity > 0.0);
-            return volume.over(lit(near, at(depth_front)));
-        }
-        let maps = SmoothMaps::new(surfaces, RANGE, size).unwrap();
-        let (near, far) = (maps.front().look_up(&whole), maps.back().look_up(&whole));
-        *crossings += u32::from(near.opacity + far.opacity > 0.0);
-        let (near, far) = (lit(near, at(depth_front)), lit(far, at(depth_back)));
-        if mixing == Mixing::Stopped { volume.over(near.over(far)) } else { near.over(volume.over(far)) }
-    }
-
-    fn volume_intensity(&self, segment: &TestSegment) -> f64 {
-        if !self.plan.lighting.is_some_and(|lighting| lighting.volume) {
-            return 1.0;
-        }
-        let [front, back] = segment.depth.map(f64::from);
-        self.intensities(segment, 0.5 * (front + back), SurfaceShading::Smooth).iter().sum()
-    }
-
-    fn intensities(&self, segment: &TestSegment, depth: f64, shading: SurfaceShading) -> [f64; 2] {
-        let Some(lighting) = self.plan.lighting.filter(|_| shading != SurfaceShading::None) else { return [1.0, 0.0] };
-        let point = |v: u32| (v & !(1 << 31)) as usize;
-        let gradient = if shading == SurfaceShading::Flat {
-            let [a, b, c, d] = self.scene.corners(segment.vertices);
-            let scalars = segment.vertices.map(|v| f64::from(self.scene.points[point(v)][3]));
-            let (b, c, d) = (b - a, c - a, d - a);
-            let volume = b.dot(c.cross(d));
-            (c.cross(d) * (scalars[1] - scalars[0])
-                + d.cross(b) * (scalars[2] - scalars[0])
-                + b.cross(c) * (scalars[3] - scalars[0]))
-                / volume
-        } else {
-            let shares = self.scene.shares(segment, depth).map(|share| share.max(0.0));
-            let gradient = |v: u32| DVec3::from_slice(&self.scene.gradients[point(v)].map(f64::from)[..3]);
-            let sum: DVec3 = segment.vertices.iter().zip(shares).map(|(&v, share)| gradient(v) * share).sum();
-            in_view(sum)
-        };
-        let slope = if self.scene.is_perspective { PIXEL } else { 0.0 };
-        let [x, y] = segment.center.map(|x| f64::from(x) * slope);
-        let to_eye = -DVec3::new(x, y, 1.0).normalize();
-        let to_light = lighting.direction.map_or(to_eye, in_view);
-        lighting.phong.intensities(gradient.into(), to_eye.into(), to_light.into())
-    }
-}
-
-fn in_view(direction: DVec3) -> DVec3 {
-    let [right, down, forward] = axes();
-    DVec3::new(right.dot(direction), down.dot(direction), forward.dot(direction))
-}
-
-/// As `test/volume_grey.wgsl`.
-fn grey(part: &Segment, intensity: f64) -> RgbaAssoc {
-    let opacity = part.chord_length / (1.0 + part.chord_length);
-    let mean = 0.75 * part.scalar_front + 0.25 * part.scalar_back;
-    let rgb = [0.5 + 0.25 * mean, 0.5 - 0.25 * mean, 0.25].map(|channel| opacity * channel * intensity);
-    RgbaAssoc { rgb, opacity }
 }
 
 /// Draws random cells as a plan says, and gives the largest difference from the formulas.
@@ -611,4 +315,18 @@ fn what_is_the_same_is_kept() {
     let method = IsosurfaceMethod::Map { size: 1, mixing: Mixing::Smooth };
     let plan = Plan { isosurfaces: Some(IsosurfacePlan { method, ..plan.isosurfaces.clone().unwrap() }), ..plan };
     assert!(matches!(Effects::new(&gpu, &plan, UNITS, None), Err(GpuError::Isosurfaces(_))));
+}
+
+#[test]
+fn gradients_of_points_are_those_of_the_mesh() {
+    let Some(gpu) = gpu() else { return };
+    let positions = [DVec3::ZERO, DVec3::X, DVec3::Y, DVec3::Z];
+    let slope = DVec3::new(0.25, -0.5, 2.0);
+    let cell = [0, 1, 2, 3].map(VertexId);
+    let buffer = point_gradients(&gpu, &positions, &[cell], &positions.map(|p| p.dot(slope))).unwrap();
+    let gradients: Vec<[f32; 4]> = contents(&gpu, gpu.encoder("test"), &buffer, 4);
+    for gradient in gradients {
+        let error = (DVec3::from_slice(&gradient.map(f64::from)[..3]) - slope).length();
+        assert!(error < 1e-6, "{gradient:?}");
+    }
 }

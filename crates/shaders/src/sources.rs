@@ -36,6 +36,7 @@ sources![
     "include/frame.wgsl",
     "include/list.wgsl",
     "include/points.wgsl",
+    "integrate/exponential.wgsl",
     "integrate/light.wgsl",
     "test/effects.wgsl",
     "test/volume_grey.wgsl",
