@@ -1,17 +1,18 @@
-// Ranks handed on along a ray. The rank at the entry to a cell is that of the exit before, where one cell begins at the depth at which the
-// last one ended: so each surface is met exactly once on the way from one side to the other, whatever rounding does to the scalars there.
+// Ranks handed on along a ray. The rank at the entry to a cell is that of the exit before, where one cell begins at the depth at which
+// the last one ended: so each surface is met exactly once on the way from one side to the other, whatever rounding does to the scalars
+// there.
 //
 // frame: where depths count from.
 
 #use effects/joint.wgsl
 #use include/frame.wgsl
 
-// Depths are off by at most this share of a cell's own range of depths, as its faces are not steeper than set-up lets them be, and by this
-// share of the depth itself, which counts from where the mesh begins: a few roundings.
+// Depths are off by at most this share of a cell's own range of depths, as its faces are not steeper than set-up lets them be, and by
+// this share of the depth itself, which counts from where the mesh begins: a few roundings.
 const SLACK_OF_CELL: f32 = 1e-4;
 const SLACK_OF_DEPTH: f32 = 1e-6;
-// Most of it, as a share of the cell's range of depths: where f32 does not tell one cell's depth from the next one's, cells in a wrong order
-// would take each other's ranks. Then each has its own.
+// Most of it, as a share of the cell's range of depths: where f32 does not tell one cell's depth from the next one's, cells in a wrong
+// order would take each other's ranks. Then each has its own.
 const MOST_SLACK: f32 = 0.05;
 
 // How far the depths of a cell's faces may be off.

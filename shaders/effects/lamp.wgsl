@@ -1,5 +1,5 @@
-// Phong's model: how much of its color a surface sends to the eye, and the highlight on top of it. The normal is the gradient's direction or
-// the opposite one, whichever faces the eye.
+// Phong's model: how much of its color a surface sends to the eye, and the highlight on top of it. The normal is the gradient's direction
+// or the opposite one, whichever faces the eye.
 
 #use include/frame.wgsl
 #use effects/axes.wgsl

@@ -1,9 +1,9 @@
 // Light of a segment with isosurfaces that are looked up in maps over the scalars at both ends.
 //
-// MAP_PASSES says how a surface gets into a cell: MAP_BEHIND: one map, behind a volume whose integral stops at the surface; MAP_BOTH_BEHIND: one for the
-// front faces and one for the back faces, behind such a volume; MAP_AROUND: the same with the whole cell's volume between them.
-// Texels are handed on along the ray with CARRIES_JOINTS; without, those of both ends are taken a little apart, so that none is
-// missed where two cells round a scalar to different texels.
+// MAP_PASSES says how a surface gets into a cell: MAP_BEHIND: one map, behind a volume whose integral stops at the surface;
+// MAP_BOTH_BEHIND: one for the front faces and one for the back faces, behind such a volume; MAP_AROUND: the same with the whole cell's
+// volume between them. Texels are handed on along the ray with CARRIES_JOINTS; without, those of both ends are taken a little apart, so
+// that none is missed where two cells round a scalar to different texels.
 //
 // maps: an entry is premultiplied color and opacity; texel (front, back) is entry front * texels + back, the second map behind the first.
 
@@ -42,8 +42,8 @@ fn texels_of(reference: i32, scalars: vec2<f32>) -> vec2<f32> {
     return floor(clamp(scalars * axis.per_scalar + at_reference, vec2<f32>(0.0), vec2<f32>(f32(axis.texels - 1u))));
 }
 
-// Whether rays may cross surfaces in a cell: whether the map has any between its lowest and its highest scalar. So the list of surfaces needs no
-// binding, of which there are few.
+// Whether rays may cross surfaces in a cell: whether the map has any between its lowest and its highest scalar. So the list of surfaces
+// needs no binding, of which there are few.
 fn maps_may_show(low: i32, high: i32) -> bool {
     let margin = surface_margin(low, high);
     let size = maps.axis.texels;

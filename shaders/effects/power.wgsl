@@ -1,5 +1,7 @@
 // Powers of numbers from 0 to 1, to a few units in the last place; those of the language are left to each driver.
 
+#use integrate/exponential.wgsl
+
 const LEAST_NORMAL: f32 = 1.1754944e-38;
 
 // -ln x for a normal number up to 1; 0 at 1.
@@ -18,22 +20,6 @@ fn minus_log(x: f32) -> f32 {
     return -(exponent * 0.69314718 + (2.0 * s + 2.0 * s * (series * square)));
 }
 
-// exp(-x) for x from 0; 0 where the result has no normal number.
-fn decay(x: f32) -> f32 {
-    if x > 87.3 {
-        return 0.0;
-    }
-    let exponent = round(-x * 1.442695);
-    let scale = bitcast<f32>(u32(i32(exponent) + 127) << 23u);
-    // ln 2 in two parts. The first has 9 bits, so that its product with an exponent is exact.
-    let rest = (-x - exponent * 0.693359375) + exponent * 2.1219444e-4;
-    var sum = EXP_M1[EXP_TERMS - 1u];
-    for (var term = EXP_TERMS - 1u; term > 0u; term--) {
-        sum = sum * rest + EXP_M1[term - 1u];
-    }
-    return scale + scale * (sum * rest);
-}
-
 // 0 to the power 0 is 1. Bases without a normal number count as 0.
 //
 // - base: 0 to 1
@@ -45,5 +31,5 @@ fn power(base: f32, exponent: f32) -> f32 {
     if base < LEAST_NORMAL {
         return 0.0;
     }
-    return decay(minus_log(base) * exponent);
+    return transmittance_of(minus_log(base) * exponent);
 }

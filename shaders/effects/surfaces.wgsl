@@ -1,10 +1,10 @@
-// Light of a segment that isosurfaces may cut: cut where its scalar crosses them, the volume integrated in front of, between and behind the
-// surfaces, and all composed along the ray. Nothing is extracted.
+// Light of a segment that isosurfaces may cut: cut where its scalar crosses them, the volume integrated in front of, between and behind
+// the surfaces, and all composed along the ray. Nothing is extracted.
 //
-// Which surfaces are crossed follows from ranks: on which side of each surface the two ends lie. With CARRIES_JOINTS the rank at the entry is
-// handed on from the cell before, and each surface is met exactly once. Without, as where cells are drawn as triangles one by one, a surface
-// that lies within what rounding does to the scalars at a face is met in both cells of it: none is ever missed, and a transparent one may
-// count twice in a pixel whose ray crosses it there, which is rare and shows as a single darker pixel.
+// Which surfaces are crossed follows from ranks: on which side of each surface the two ends lie. With CARRIES_JOINTS the rank at the
+// entry is handed on from the cell before, and each surface is met exactly once. Without, as where cells are drawn as triangles one by
+// one, a surface that lies within what rounding does to the scalars at a face is met in both cells of it: none is ever missed, and a
+// transparent one may count twice in a pixel whose ray crosses it there, which is rare and shows as a single darker pixel.
 
 #use cell/cell.wgsl
 #use integrate/light.wgsl

@@ -1,5 +1,5 @@
-// For tests: a volume that every renderer can compute with four operations. It hides l / (1 + l) of what lies behind, and its color is linear in
-// the scalars, the front counting three times, so that no part of a segment may be turned round.
+// For tests: a volume that every renderer can compute with four operations. It hides l / (1 + l) of what lies behind, and its color is
+// linear in the scalars, the front counting three times, so that no part of a segment may be turned round.
 
 #use integrate/light.wgsl
 
