@@ -3,9 +3,14 @@
 mod device;
 mod error;
 mod kernel;
+mod targets;
+mod triangles;
 
 #[cfg(test)]
 mod testing;
+#[cfg(test)]
+mod triangles_tests;
 
 pub use device::{AdapterChoice, AdapterDescription, Gpu, adapters};
 pub use error::GpuError;
+pub use targets::TargetPrecision;

@@ -7,4 +7,27 @@ macro_rules! sources {
     };
 }
 
-sources!["cell/cell.wgsl", "include/frame.wgsl", "include/list.wgsl", "integrate/light.wgsl",];
+sources![
+    "cell/cell.wgsl",
+    "include/frame.wgsl",
+    "include/list.wgsl",
+    "include/points.wgsl",
+    "integrate/light.wgsl",
+    "test/triangles_cell.wgsl",
+    "test/triangles_model.wgsl",
+    "test/triangles_pieces.wgsl",
+    "test/triangles_shade.wgsl",
+    "test/triangles_vertices.wgsl",
+    "test/triangles_volume.wgsl",
+    "triangles/accumulate.wgsl",
+    "triangles/corners.wgsl",
+    "triangles/draw.wgsl",
+    "triangles/fan.wgsl",
+    "triangles/fans.wgsl",
+    "triangles/list.wgsl",
+    "triangles/rays.wgsl",
+    "triangles/resolve.wgsl",
+    "triangles/screen.wgsl",
+    "triangles/thick.wgsl",
+    "triangles/varying.wgsl",
+];
