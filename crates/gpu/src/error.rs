@@ -1,5 +1,6 @@
 //! Why a picture was not drawn.
 
+use tetrascope_integrate::MethodError;
 use tetrascope_shaders::ShaderError;
 
 /// Why a picture was not drawn, or no device was opened.
@@ -72,6 +73,9 @@ pub enum GpuError {
         /// What it says.
         problem: String,
     },
+    /// The integration does not go with the optical model, or its table has no possible size.
+    #[error(transparent)]
+    Method(#[from] MethodError),
     /// A program could not be composed; a defect.
     #[error(transparent)]
     Shader(#[from] ShaderError),

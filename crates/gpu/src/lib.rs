@@ -5,6 +5,7 @@ mod error;
 mod kernel;
 mod targets;
 mod triangles;
+mod lookups;
 
 #[cfg(test)]
 mod testing;

@@ -59,6 +59,11 @@ pub struct PsiTable {
 }
 
 impl PsiTable {
+    /// Samples along the axis of depths.
+    pub const DEPTHS: usize = DEPTHS;
+    /// Samples along the axis of balances.
+    pub const BALANCES: usize = BALANCES;
+
     /// The table, computed at the first call.
     pub fn shared() -> &'static Self {
         static TABLE: OnceLock<PsiTable> = OnceLock::new();
@@ -142,8 +147,8 @@ impl PsiTable {
         (thin_share(part) + (above + (below - above) * down) / f64::from(ENTRY_SCALE)).min(1.0)
     }
 
-    /// The entries, `[depth][balance]`.
-    pub(crate) fn entries(&self) -> &[[u16; BALANCES]; DEPTHS] {
+    /// The entries, `[depth][balance]`: 16 bits for 0 to 1.
+    pub fn entries(&self) -> &[[u16; BALANCES]; DEPTHS] {
         &self.excess
     }
 }

@@ -5,8 +5,10 @@
 //! likewise of the renderer's unit of scalars, in which the field's range is between 1 and 2 long, about its middle.
 
 use bytemuck::{Pod, Zeroable};
+use tetrascope_integrate::PsiTable;
 
 use crate::constants::Constant;
+pub use crate::layout_optics::OpticsUniform;
 
 /// One step of the lattice of positions and scalars, in local units.
 pub const LATTICE_STEP: f64 = 1.0 / (1u64 << 29) as f64;
@@ -29,6 +31,8 @@ pub(crate) const CONSTANTS: &[(&str, Constant)] = &[
     ("GROUP", Constant::U32(GROUP)),
     ("NEGATIVE_BIT", Constant::U32(NEGATIVE_BIT)),
     ("RING_BIT", Constant::U32(RING_BIT)),
+    ("PSI_DEPTHS", Constant::U32(PsiTable::DEPTHS as u32)),
+    ("PSI_BALANCES", Constant::U32(PsiTable::BALANCES as u32)),
 ];
 
 /// A view, and the part of the picture that is drawn.

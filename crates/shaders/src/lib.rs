@@ -20,6 +20,7 @@
 mod compose;
 mod constants;
 pub mod layout;
+mod layout_optics;
 mod program;
 mod sources;
 
