@@ -76,6 +76,9 @@ pub enum GpuError {
     /// The integration does not go with the optical model, or its table has no possible size.
     #[error(transparent)]
     Method(#[from] MethodError),
+    /// Isosurfaces have no possible map.
+    #[error(transparent)]
+    Isosurfaces(#[from] tetrascope_integrate::IsosurfaceError),
     /// A program could not be composed; a defect.
     #[error(transparent)]
     Shader(#[from] ShaderError),

@@ -1,11 +1,13 @@
 //! The GPU back end: Projected Tetrahedra on any device that wgpu reaches.
 
 mod device;
+mod effects;
 mod error;
 mod kernel;
 mod targets;
 mod triangles;
 mod lookups;
+mod maps;
 
 #[cfg(test)]
 mod testing;

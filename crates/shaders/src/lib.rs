@@ -21,6 +21,7 @@ mod compose;
 mod constants;
 pub mod layout;
 mod layout_optics;
+mod layout_effects;
 mod program;
 mod sources;
 

@@ -1,0 +1,8 @@
+// One gradient a cell.
+
+#use cell/cell.wgsl
+#use effects/constant_gradient.wgsl
+
+fn gradient_at(corners: array<vec4<i32>, 4>, vertices: vec4<u32>, sample: Sample, depth: f32, shading: u32) -> vec3<f32> {
+    return constant_gradient(corners);
+}
