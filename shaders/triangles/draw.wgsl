@@ -31,34 +31,34 @@ fn vertex(@builtin(vertex_index) number: u32, @builtin(instance_index) instance:
     let place = cells_of_block() - 1u - instance;
     let vertices = vertices_of(place);
     let record = fans[place];
-    var varying: Varying;
+    var handed: Varying;
     if triangles_of(record.x) == SHAPE_BOX {
-        varying.position = box_vertex(find_outline(vertices), number);
-        varying.cell = place | IS_BOX;
-        return varying;
+        handed.position = box_vertex(find_outline(vertices), number);
+        handed.cell = place | IS_BOX;
+        return handed;
     }
     let corners = corners_of(vertices);
-    varying.cell = place;
+    handed.cell = place;
     if triangles_of(record.x) == 0u {
-        varying.position = vec4<f32>(0.0, 0.0, 0.5, 1.0);
-        return varying;
+        handed.position = vec4<f32>(0.0, 0.0, 0.5, 1.0);
+        return handed;
     }
     let at = fan_vertex(corners, record, number);
     let on_screen = screen_place(at.point, at.beside);
-    varying.position = position_of(on_screen);
+    handed.position = position_of(on_screen);
     // The first corner's pixel is close, and one and the same for the whole cell.
     let anchor = round(screen_place(corners.points[0], vec3<f32>()));
-    varying.anchor = vec2<i32>(anchor) + vec2<i32>(frame.columns.x, frame.rows.x);
-    varying.place = on_screen - anchor;
-    carry(corners, record, at, &varying);
-    return varying;
+    handed.anchor = vec2<i32>(anchor) + vec2<i32>(frame.columns.x, frame.rows.x);
+    handed.place = on_screen - anchor;
+    carry(corners, record, at, &handed);
+    return handed;
 }
 
 // Two triangles over a box of pixels; the other vertices lie in one point.
 fn box_vertex(outline: vec4<i32>, number: u32) -> vec4<f32> {
     let is_empty = outline.x > outline.z || outline.y > outline.w || number >= 6u;
     // Corners 0 1 2, 2 1 3 of the box.
-    let corner = select(number, 6u - number, number >= 3u && number < 5u);
+    let corner = select(number, 5u - number, number >= 3u && number < 5u);
     let at = select(corner, 3u, number == 5u);
     let far = vec2<bool>((at & 1u) != 0u, (at & 2u) != 0u);
     let edge = select(vec2<f32>(outline.xy), vec2<f32>(outline.zw) + 1.0, far);
@@ -67,17 +67,17 @@ fn box_vertex(outline: vec4<i32>, number: u32) -> vec4<f32> {
 }
 
 @fragment
-fn fragment(varying: Varying) -> @location(0) vec4<f32> {
-    let pixel = vec2<i32>(floor(varying.position.xy)) + vec2<i32>(frame.origin);
+fn fragment(handed: Varying) -> @location(0) vec4<f32> {
+    let pixel = vec2<i32>(floor(handed.position.xy)) + vec2<i32>(frame.origin);
     // Slopes first: neighbors take part in them.
-    let per_column = dpdx(varying.attributes);
-    let per_row = dpdy(varying.attributes);
-    let moved = vec2<f32>(pixel - varying.anchor) - varying.place;
+    let per_column = dpdx(handed.attributes);
+    let per_row = dpdy(handed.attributes);
+    let moved = vec2<f32>(pixel - handed.anchor) - handed.place;
     let back = clamp(moved, vec2<f32>(-MOST_MOVED), vec2<f32>(MOST_MOVED));
-    let attributes = varying.attributes + back.x * per_column + back.y * per_row;
-    let vertices = vertices_of(varying.cell & ~IS_BOX);
-    if (varying.cell & IS_BOX) == 0u {
-        return assembled(light_of(varying, attributes, vertices, pixel));
+    let attributes = handed.attributes + back.x * per_column + back.y * per_row;
+    let vertices = vertices_of(handed.cell & ~IS_BOX);
+    if (handed.cell & IS_BOX) == 0u {
+        return assembled(light_of(handed, attributes, vertices, pixel));
     }
     let cell = set_up(vertices);
     let found = sample(cell, pixel);

@@ -10,33 +10,33 @@
 #use <pieces>
 #use <effects>
 
-fn carry(corners: Corners, record: vec4<u32>, at: FanVertex, varying: ptr<function, Varying>) {
+fn carry(corners: Corners, record: vec4<u32>, at: FanVertex, handed: ptr<function, Varying>) {
     let low = lowest(corners.scalars);
     let high = highest(corners.scalars);
     let farthest = nearness_at(highest(corners.beyond), highest(corners.depths));
     let nearest = nearness_at(lowest(corners.beyond), lowest(corners.depths));
     let pieces = find_pieces(corners.scalar, low, high);
-    (*varying).attributes = vec4<f32>(at.nearness, at.difference, at.front, at.back);
-    (*varying).numbers = vec4<f32>(corners.depth, bitcast<f32>(record.w), corners.depth_shown, 0.0);
-    (*varying).bounds = vec4<f32>(farthest, nearest, low, high);
-    (*varying).counts = vec4<i32>(corners.scalar, vec2<i32>(pieces), 0);
+    (*handed).attributes = vec4<f32>(at.nearness, at.difference, at.front, at.back);
+    (*handed).numbers = vec4<f32>(corners.depth, bitcast<f32>(record.w), corners.depth_shown, 0.0);
+    (*handed).bounds = vec4<f32>(farthest, nearest, low, high);
+    (*handed).counts = vec4<i32>(corners.scalar, vec2<i32>(pieces), 0);
 }
 
-fn light_of(varying: Varying, attributes: vec4<f32>, vertices: vec4<u32>, pixel: vec2<i32>) -> Light {
-    let reference = varying.numbers.x;
-    let bounds = varying.bounds;
+fn light_of(handed: Varying, attributes: vec4<f32>, vertices: vec4<u32>, pixel: vec2<i32>) -> Light {
+    let reference = handed.numbers.x;
+    let bounds = handed.bounds;
     let is_perspective = frame.is_perspective != 0u;
 
     var cell: Cell;
     cell.pixel = pixel;
     cell.nearness = bounds.xy;
     cell.scalars = bounds.zw;
-    cell.reference = varying.counts.x;
-    cell.depth = varying.numbers.z;
+    cell.reference = handed.counts.x;
+    cell.depth = handed.numbers.z;
     cell.length = select(1.0, reference, is_perspective);
 
     // Beside the outline, where rounding lets a pixel count as covered, nothing is between the ends.
-    let difference = clamp(attributes.y, 0.0, varying.numbers.y);
+    let difference = clamp(attributes.y, 0.0, handed.numbers.y);
     let enter = clamp(attributes.x, bounds.x, bounds.y);
     let leave = enter - difference;
     var found: Sample;
@@ -55,7 +55,7 @@ fn light_of(varying: Varying, attributes: vec4<f32>, vertices: vec4<u32>, pixel:
     found.front = clamp(scalars.x, bounds.z, bounds.w);
     found.back = clamp(scalars.y, bounds.z, bounds.w);
 
-    let optics = Optics(cell.reference, bounds.z, bounds.w, u32(varying.counts.y), u32(varying.counts.z));
+    let optics = Optics(cell.reference, bounds.z, bounds.w, u32(handed.counts.y), u32(handed.counts.z));
     var joint = no_joint();
     var crossings = 0u;
     return shade(cell, vertices, optics, found, &joint, &crossings);

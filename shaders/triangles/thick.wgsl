@@ -13,7 +13,7 @@
 
 const HAS_COLOR: bool = MODEL_EMITS && !MODEL_COLOR_IS_PER_LENGTH;
 
-fn carry(corners: Corners, record: vec4<u32>, at: FanVertex, varying: ptr<function, Varying>) {
+fn carry(corners: Corners, record: vec4<u32>, at: FanVertex, handed: ptr<function, Varying>) {
     let low = lowest(corners.scalars);
     let high = highest(corners.scalars);
     let found = find_pieces(corners.scalar, low, high);
@@ -24,7 +24,7 @@ fn carry(corners: Corners, record: vec4<u32>, at: FanVertex, varying: ptr<functi
         if HAS_COLOR {
             color = transfer_at(optics, scalar_of(at.front, at.nearness)).color;
         }
-        (*varying).attributes = vec4<f32>(color, 0.0);
+        (*handed).attributes = vec4<f32>(color, 0.0);
         return;
     }
     let leave = at.nearness - at.difference;
@@ -38,7 +38,7 @@ fn carry(corners: Corners, record: vec4<u32>, at: FanVertex, varying: ptr<functi
     }
     let center = screen_place(at.point, at.beside) + pixel_center(vec2<i32>(frame.columns.x, frame.rows.x));
     let light = model_constant(extinction, color, chord * ray_stretch(center));
-    (*varying).attributes = vec4<f32>(select(light.rgb, color, HAS_COLOR), 1.0 - light.transmittance);
+    (*handed).attributes = vec4<f32>(select(light.rgb, color, HAS_COLOR), 1.0 - light.transmittance);
 }
 
 // The scalar itself.
@@ -46,7 +46,7 @@ fn scalar_of(over: f32, nearness: f32) -> f32 {
     return select(over, over / (1.0 + nearness), frame.is_perspective != 0u);
 }
 
-fn light_of(varying: Varying, attributes: vec4<f32>, vertices: vec4<u32>, pixel: vec2<i32>) -> Light {
+fn light_of(handed: Varying, attributes: vec4<f32>, vertices: vec4<u32>, pixel: vec2<i32>) -> Light {
     let opacity = clamp(attributes.a, 0.0, 1.0);
     let color = max(attributes.rgb, vec3<f32>());
     return Light(select(color, color * opacity, HAS_COLOR), 1.0 - opacity);
