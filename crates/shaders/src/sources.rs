@@ -9,6 +9,7 @@ macro_rules! sources {
 
 sources![
     "cell/cell.wgsl",
+    "cell/wide.wgsl",
     "effects/axes.wgsl",
     "effects/carry.wgsl",
     "effects/cell_corners.wgsl",
