@@ -4,6 +4,7 @@
 #use include/frame.wgsl
 #use cell/cell.wgsl
 #use integrate/light.wgsl
+#use integrate/pieces.wgsl
 #use triangles/corners.wgsl
 
 fn set_up(vertices: vec4<u32>) -> Cell {
@@ -65,7 +66,8 @@ fn sample(cell: Cell, pixel: vec2<i32>) -> Sample {
 }
 
 fn optics_of(cell: Cell) -> Optics {
-    return Optics(cell.reference, cell.scalars.x, cell.scalars.y, 0u, 1u);
+    let found = find_pieces(cell.reference, cell.scalars.x, cell.scalars.y);
+    return Optics(cell.reference, cell.scalars.x, cell.scalars.y, found.x, found.y);
 }
 
 fn find_outline(vertices: vec4<u32>) -> vec4<i32> {

@@ -77,7 +77,7 @@ fn fragment(handed: Varying) -> @location(0) vec4<f32> {
     let attributes = handed.attributes + back.x * per_column + back.y * per_row;
     let vertices = vertices_of(handed.cell & ~IS_BOX);
     if (handed.cell & IS_BOX) == 0u {
-        return assembled(light_of(handed, attributes, vertices, pixel));
+        return assembled(fan_light(handed, attributes, vertices, pixel));
     }
     let cell = set_up(vertices);
     let found = sample(cell, pixel);

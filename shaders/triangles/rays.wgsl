@@ -7,7 +7,7 @@
 #use integrate/light.wgsl
 #use triangles/fan.wgsl
 #use triangles/varying.wgsl
-#use <pieces>
+#use integrate/pieces.wgsl
 #use <effects>
 
 fn carry(corners: Corners, record: vec4<u32>, at: FanVertex, handed: ptr<function, Varying>) {
@@ -15,14 +15,14 @@ fn carry(corners: Corners, record: vec4<u32>, at: FanVertex, handed: ptr<functio
     let high = highest(corners.scalars);
     let farthest = nearness_at(highest(corners.beyond), highest(corners.depths));
     let nearest = nearness_at(lowest(corners.beyond), lowest(corners.depths));
-    let pieces = find_pieces(corners.scalar, low, high);
+    let met = find_pieces(corners.scalar, low, high);
     (*handed).attributes = vec4<f32>(at.nearness, at.difference, at.front, at.back);
     (*handed).numbers = vec4<f32>(corners.depth, bitcast<f32>(record.w), corners.depth_shown, 0.0);
     (*handed).bounds = vec4<f32>(farthest, nearest, low, high);
-    (*handed).counts = vec4<i32>(corners.scalar, vec2<i32>(pieces), 0);
+    (*handed).counts = vec4<i32>(corners.scalar, vec2<i32>(met), 0);
 }
 
-fn light_of(handed: Varying, attributes: vec4<f32>, vertices: vec4<u32>, pixel: vec2<i32>) -> Light {
+fn fan_light(handed: Varying, attributes: vec4<f32>, vertices: vec4<u32>, pixel: vec2<i32>) -> Light {
     let reference = handed.numbers.x;
     let bounds = handed.bounds;
     let is_perspective = frame.is_perspective != 0u;
@@ -55,8 +55,8 @@ fn light_of(handed: Varying, attributes: vec4<f32>, vertices: vec4<u32>, pixel: 
     found.front = clamp(scalars.x, bounds.z, bounds.w);
     found.back = clamp(scalars.y, bounds.z, bounds.w);
 
-    let optics = Optics(cell.reference, bounds.z, bounds.w, u32(handed.counts.y), u32(handed.counts.z));
+    let of_cell = Optics(cell.reference, bounds.z, bounds.w, u32(handed.counts.y), u32(handed.counts.z));
     var joint = no_joint();
     var crossings = 0u;
-    return shade(cell, vertices, optics, found, &joint, &crossings);
+    return shade(cell, vertices, of_cell, found, &joint, &crossings);
 }

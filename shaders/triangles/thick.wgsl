@@ -8,7 +8,7 @@
 #use triangles/fan.wgsl
 #use triangles/screen.wgsl
 #use triangles/varying.wgsl
-#use <pieces>
+#use integrate/pieces.wgsl
 #use <model>
 
 const HAS_COLOR: bool = MODEL_EMITS && !MODEL_COLOR_IS_PER_LENGTH;
@@ -17,19 +17,19 @@ fn carry(corners: Corners, record: vec4<u32>, at: FanVertex, handed: ptr<functio
     let low = lowest(corners.scalars);
     let high = highest(corners.scalars);
     let found = find_pieces(corners.scalar, low, high);
-    let optics = Optics(corners.scalar, low, high, found.x, found.y);
+    let cell = Optics(corners.scalar, low, high, found.x, found.y);
     if at.difference == 0.0 {
         // A corner of the outline: nothing between the ends.
         var color = vec3<f32>();
         if HAS_COLOR {
-            color = transfer_at(optics, scalar_of(at.front, at.nearness)).color;
+            color = transfer_at(cell, scalar_of(at.front, at.nearness)).color;
         }
         (*handed).attributes = vec4<f32>(color, 0.0);
         return;
     }
     let leave = at.nearness - at.difference;
-    let front = transfer_at(optics, scalar_of(at.front, at.nearness));
-    let back = transfer_at(optics, scalar_of(at.back, leave));
+    let front = transfer_at(cell, scalar_of(at.front, at.nearness));
+    let back = transfer_at(cell, scalar_of(at.back, leave));
     let extinction = 0.5 * (front.extinction + back.extinction);
     let color = 0.5 * (front.color + back.color);
     var chord = at.difference;
@@ -46,7 +46,7 @@ fn scalar_of(over: f32, nearness: f32) -> f32 {
     return select(over, over / (1.0 + nearness), frame.is_perspective != 0u);
 }
 
-fn light_of(handed: Varying, attributes: vec4<f32>, vertices: vec4<u32>, pixel: vec2<i32>) -> Light {
+fn fan_light(handed: Varying, attributes: vec4<f32>, vertices: vec4<u32>, pixel: vec2<i32>) -> Light {
     let opacity = clamp(attributes.a, 0.0, 1.0);
     let color = max(attributes.rgb, vec3<f32>());
     return Light(select(color, color * opacity, HAS_COLOR), 1.0 - opacity);

@@ -4,10 +4,10 @@ mod device;
 mod effects;
 mod error;
 mod kernel;
-mod targets;
-mod triangles;
 mod lookups;
 mod maps;
+mod targets;
+mod triangles;
 
 #[cfg(test)]
 mod testing;

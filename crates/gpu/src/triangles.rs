@@ -11,8 +11,32 @@ use crate::{Gpu, GpuError};
 /// Bytes of a fan's record.
 const FAN_BYTES: u64 = 16;
 
-/// A cell whose nearest point is closer than this share of its farthest has no fan: it reaches the plane of the eye, or nearly.
-const NEAR_SHARE: f32 = 1e-2;
+/// What is interpolated over the triangles of a fan.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Interpolated {
+    /// Where rays enter and leave: every pixel integrates along its own.
+    Rays,
+    /// Color and opacity, from the thick vertex: `Integration::Vertex`.
+    Light,
+}
+
+impl Interpolated {
+    fn file(self) -> &'static str {
+        match self {
+            Self::Rays => "triangles/rays.wgsl",
+            Self::Light => "triangles/thick.wgsl",
+        }
+    }
+
+    /// A cell whose nearest point is closer than this share of its farthest has no fan: it reaches the plane of the eye, or nearly, and is
+    /// found ray by ray. Where the fan is what defines the light, as few cells as f32 allows.
+    fn near_share(self) -> f32 {
+        match self {
+            Self::Rays => 1e-2,
+            Self::Light => 1e-4,
+        }
+    }
+}
 
 /// Light and opacity of what lies before over what lies behind.
 const OVER: BlendComponent = BlendComponent {
@@ -48,14 +72,15 @@ pub(crate) struct BlockToDraw {
 }
 
 impl TrianglePath {
-    /// - `slots`: what fills those of `triangles/draw.wgsl` and of what that uses
-    /// - `constants`: those that these ask for
+    /// - `slots`: files for `effects`, `volume` and `model`, and for the slots of those
+    /// - `constants`: those that these ask for; rays hand on nothing from cell to cell here, so that CARRIES_JOINTS is false
     /// - `capacity`: most cells of a draw block
     ///
     /// # Errors
     /// [`GpuError::Shader`], and [`GpuError::TooLarge`] for blocks that no binding takes.
     pub(crate) fn new(
         gpu: &Gpu,
+        interpolated: Interpolated,
         slots: &[Slot<'_>],
         constants: &[(&str, Constant)],
         precision: TargetPrecision,
@@ -66,13 +91,14 @@ impl TrianglePath {
             let adapter = gpu.description().name.clone();
             return Err(GpuError::TooLarge { what: "a block of fans", needed, limit, adapter });
         }
-        let mut all = constants.to_vec();
-        all.push(("MOST_LIGHT", Constant::F32(precision.most_light())));
-        all.push(("NEAR_SHARE", Constant::F32(NEAR_SHARE)));
-        all.push(("CARRIES_JOINTS", Constant::Bool(false)));
-        let fans = Program::compose("triangles/fans.wgsl", slots, &all)?;
-        let accumulate = Program::compose("triangles/accumulate.wgsl", slots, &all)?;
-        let draw = Program::compose("triangles/draw.wgsl", slots, &all)?;
+        let mut constants = constants.to_vec();
+        constants.push(("MOST_LIGHT", Constant::F32(precision.most_light())));
+        constants.push(("NEAR_SHARE", Constant::F32(interpolated.near_share())));
+        let mut slots = slots.to_vec();
+        slots.push(("triangle", interpolated.file()));
+        let fans = Program::compose("triangles/fans.wgsl", &slots, &constants)?;
+        let accumulate = Program::compose("triangles/accumulate.wgsl", &slots, &constants)?;
+        let draw = Program::compose("triangles/draw.wgsl", &slots, &constants)?;
         let blend = BlendState { color: OVER, alpha: OVER };
         Ok(Self {
             fans_kernel: Kernel::new(gpu, &fans, "fans_of_block"),

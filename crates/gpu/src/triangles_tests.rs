@@ -4,13 +4,13 @@ use std::collections::BTreeSet;
 
 use glam::{DVec2, DVec3};
 use tetrascope_classify::{FanVertex, Projected, Tests, Viewpoint, by_planes, project};
-use tetrascope_shaders::layout::{Frame, LATTICE_STEP, NEGATIVE_BIT};
+use tetrascope_shaders::layout::{EFFECT_CONSTANTS, Frame, LATTICE_STEP, NEGATIVE_BIT, OpticsUniform};
 use tetrascope_shaders::{Constant, Program, Slot};
 
 use crate::kernel::Kernel;
 use crate::targets::{Display, Target, TargetPrecision, texture};
 use crate::testing::{checked, contents, gpu};
-use crate::triangles::{BlockToDraw, TrianglePath};
+use crate::triangles::{BlockToDraw, Interpolated, TrianglePath};
 use crate::{Gpu, testing};
 
 const SIZE: u32 = 64;
@@ -22,14 +22,18 @@ const SLOTS: &[Slot<'static>] = &[
     ("sample", "test/triangles_cell.wgsl"),
     ("outline", "test/triangles_cell.wgsl"),
     ("effects", "effects/none.wgsl"),
-    ("volume", "test/triangles_volume.wgsl"),
-    ("model", "test/triangles_model.wgsl"),
-    ("pieces", "test/triangles_pieces.wgsl"),
-    ("triangle", "triangles/rays.wgsl"),
+    ("volume", "integrate/average.wgsl"),
+    ("model", "integrate/density_emitter.wgsl"),
 ];
 
-fn constants() -> [(&'static str, Constant); 2] {
-    [("EXTINCTION", Constant::F32(EXTINCTION)), ("EXTINCTION_SLOPE", Constant::F32(EXTINCTION_SLOPE))]
+/// A piece of the transfer function as `integrate/pieces.wgsl` has it, over scalars from -1 to 1: extinction and green are linear.
+fn pieces() -> [[u32; 4]; 3] {
+    let [low, high] = [EXTINCTION - EXTINCTION_SLOPE, EXTINCTION + EXTINCTION_SLOPE];
+    [
+        [lattice(-1.0) as u32, lattice(1.0) as u32, low.to_bits(), high.to_bits()],
+        [0.9_f32.to_bits(), 0.0_f32.to_bits(), 0.2_f32.to_bits(), 3],
+        [0.9_f32.to_bits(), 1.0_f32.to_bits(), 0.2_f32.to_bits(), 0.5_f32.to_bits()],
+    ]
 }
 
 /// Numbers from 0 to 1, the same in every run.
@@ -155,8 +159,8 @@ impl Scene {
             if enter >= leave {
                 continue;
             }
-            let gradient = -(normals[1] * (s[1] - s[0]) + normals[2] * (s[2] - s[0]) + normals[3] * (s[3] - s[0]))
-                / volume.abs();
+            let gradient =
+                -(normals[1] * (s[1] - s[0]) + normals[2] * (s[2] - s[0]) + normals[3] * (s[3] - s[0])) / volume.abs();
             let middle = s[0] + gradient.dot(start + ray * (0.5 * (enter + leave)) - p[0]);
             let extinction = f64::from(EXTINCTION) + f64::from(EXTINCTION_SLOPE) * middle;
             let through = (-extinction * (leave - enter) * ray.length()).exp();
@@ -176,6 +180,8 @@ struct Uploaded {
     drawn: wgpu::Buffer,
     totals: wgpu::Buffer,
     picture: wgpu::Buffer,
+    pieces: wgpu::Buffer,
+    optics: wgpu::Buffer,
 }
 
 impl Uploaded {
@@ -186,6 +192,8 @@ impl Uploaded {
             drawn: gpu.storage_of("drawn", &scene.cells),
             totals: gpu.storage_of("totals", &[scene.cells.len() as u32, 0, 0, 0]),
             picture: gpu.storage("picture", u64::from(SIZE * SIZE) * 16),
+            pieces: gpu.storage_of("pieces", &pieces()),
+            optics: gpu.uniform_of("optics", &OpticsUniform { piece_count: 1, ..OpticsUniform::default() }),
         }
     }
 
@@ -195,20 +203,16 @@ impl Uploaded {
             ("points", self.points.as_entire_binding()),
             ("totals", self.totals.as_entire_binding()),
             ("picture", self.picture.as_entire_binding()),
+            ("pieces", self.pieces.as_entire_binding()),
+            ("optics", self.optics.as_entire_binding()),
         ]
     }
 }
 
-fn path(gpu: &Gpu, triangle: &'static str, precision: TargetPrecision, capacity: u32) -> TrianglePath {
-    let mut slots = SLOTS.to_vec();
-    slots.insert(0, ("triangle", triangle));
-    TrianglePath::new(gpu, &slots, &constants(), precision, capacity).unwrap()
-}
-
 /// A picture of a scene in blocks of `cells` cells, back to front.
-fn draw(gpu: &Gpu, scene: &Scene, triangle: &'static str, precision: TargetPrecision, cells: u32) -> Vec<[f32; 4]> {
+fn draw(gpu: &Gpu, scene: &Scene, interpolated: Interpolated, precision: TargetPrecision, cells: u32) -> Vec<[f32; 4]> {
     checked(gpu, || {
-        let path = path(gpu, triangle, precision, cells);
+        let path = TrianglePath::new(gpu, interpolated, SLOTS, &[], precision, cells).unwrap();
         let target = Target::new(gpu, [SIZE; 2], precision);
         let uploaded = Uploaded::new(gpu, scene);
         let mut encoder = gpu.encoder("test");
@@ -222,12 +226,7 @@ fn draw(gpu: &Gpu, scene: &Scene, triangle: &'static str, precision: TargetPreci
             let mut resources = uploaded.named();
             resources.push(("block", block.as_entire_binding()));
             resources.push(("drawn", drawn.as_entire_binding()));
-            let place = BlockToDraw {
-                cells,
-                is_first: number + 1 == blocks,
-                is_last: number == 0,
-                extent: [SIZE; 2],
-            };
+            let place = BlockToDraw { cells, is_first: number + 1 == blocks, is_last: number == 0, extent: [SIZE; 2] };
             path.record(gpu, &mut encoder, &resources, &target, place);
         }
         contents(gpu, encoder, &uploaded.picture, (SIZE * SIZE) as usize)
@@ -369,7 +368,13 @@ fn check_fans(scene: &Scene, what: &str) {
             assert!(vertices[2 * number][1] == 0.0);
         }
     }
-    println!("{what}: scalars {:e} {:e}, length {:e}, {same} clear of {}", worst[0], worst[1], worst[2], vertices.len());
+    println!(
+        "{what}: scalars {:e} {:e}, length {:e}, {same} clear of {}",
+        worst[0],
+        worst[1],
+        worst[2],
+        vertices.len()
+    );
     assert!(same > vertices.len() / 4, "{what}");
     assert!(worst.iter().all(|w| *w < 2e-5), "{what}: {worst:?}");
 }
@@ -438,7 +443,7 @@ fn check_pictures(scene: &Scene, what: &str) {
             continue;
         }
         for cells in [100, 2] {
-            let picture = draw(&gpu, scene, "triangles/rays.wgsl", precision, cells);
+            let picture = draw(&gpu, scene, Interpolated::Rays, precision, cells);
             let lit = picture.iter().filter(|pixel| pixel[3] < 0.99).count();
             let worst = worst(scene, &picture);
             println!("{what}, {precision:?}, blocks of {cells}: {worst:e}, {lit} pixels");
@@ -452,7 +457,71 @@ fn check_pictures(scene: &Scene, what: &str) {
 fn pictures_agree_with_rays() {
     check_pictures(&layers(DVec3::new(0.02, 0.03, -1.0), 0.01, true, -0.8, 0.1, 6), "perspective");
     check_pictures(&layers(DVec3::new(0.02, 0.03, -1.0), 0.004, false, -0.8, 0.1, 6), "orthographic");
-    check_pictures(&layers(DVec3::new(1.0, 2.0, -300.0), 0.4e-4, true, -0.5, 0.1, 5), "far");
+    check_pictures(&layers(DVec3::new(0.02, 0.03, -300.0), 1.7e-5, true, -0.5, 0.1, 5), "far");
+}
+
+#[test]
+fn pictures_of_many_layers_agree_with_rays() {
+    let Some(gpu) = gpu() else { return };
+    let mut random = Random(5);
+    let mut scene = Scene::new(DVec3::new(0.0, 0.0, -1.0), 0.01, true);
+    for layer in 0..500 {
+        let (mut corners, scalars) = random_cell(&mut random, DVec3::ZERO, 0.4);
+        for corner in &mut corners {
+            corner.z = -0.6 + 0.002 * (f64::from(layer) + corner.z);
+        }
+        scene.add(corners, scalars);
+    }
+    for (precision, cells, tolerance) in [
+        (TargetPrecision::ThirtyTwo, 500, 3e-4),
+        (TargetPrecision::Sixteen, 500, 1e-2),
+        (TargetPrecision::Sixteen, 64, 1e-2),
+    ] {
+        if precision.is_supported(&gpu) {
+            let worst = worst(&scene, &draw(&gpu, &scene, Interpolated::Rays, precision, cells));
+            println!("{precision:?}, blocks of {cells}: {worst:e}");
+            assert!(worst < tolerance, "{precision:?}: {worst}");
+        }
+    }
+}
+
+#[test]
+fn all_variants_are_programs() {
+    let mut count = 0;
+    for triangle in ["triangles/rays.wgsl", "triangles/thick.wgsl"] {
+        for effects in ["none", "lit", "surfaces", "maps"].map(|name| format!("effects/{name}.wgsl")) {
+            for volume in ["exact", "average", "ends", "partial", "cumulative", "table_2d", "table_3d"] {
+                let volume = format!("integrate/{volume}.wgsl");
+                let mut slots = SLOTS.to_vec();
+                slots.retain(|(slot, _)| !["effects", "volume"].contains(slot));
+                slots.extend([
+                    ("triangle", triangle),
+                    ("effects", &effects),
+                    ("volume", &volume),
+                    ("surface_visibility", "effects/visible_surfaces.wgsl"),
+                    ("volume_light", "effects/volume_lit.wgsl"),
+                    ("surface_light", "effects/surface_lit.wgsl"),
+                    ("gradient", "effects/gradient_points.wgsl"),
+                ]);
+                let mut constants = EFFECT_CONSTANTS.to_vec();
+                constants.extend([
+                    ("CARRIES_JOINTS", Constant::Bool(false)),
+                    ("MAP_PASSES", Constant::U32(0)),
+                    ("MOST_LIGHT", Constant::F32(1e30)),
+                    ("NEAR_SHARE", Constant::F32(1e-2)),
+                ]);
+                let program = Program::compose("triangles/draw.wgsl", &slots, &constants).unwrap();
+                for stage in ["vertex", "fragment"] {
+                    let bindings = program.bindings(stage);
+                    let storage =
+                        bindings.iter().filter(|b| matches!(b.kind, tetrascope_shaders::BindingKind::Storage(_)));
+                    assert!(storage.count() <= 8, "{effects} {volume} {stage}: {bindings:?}");
+                }
+                count += 1;
+            }
+        }
+    }
+    assert_eq!(count, 56);
 }
 
 #[test]
@@ -478,7 +547,7 @@ fn color_at_the_thick_vertex_is_interpolated() {
     let Some(gpu) = gpu() else { return };
     let scene = layers(DVec3::new(0.02, 0.03, -1.0), 0.01, true, -0.8, 0.2, 1);
     let precision = TargetPrecision::best(&gpu);
-    let picture = draw(&gpu, &scene, "triangles/thick.wgsl", precision, 10);
+    let picture = draw(&gpu, &scene, Interpolated::Light, precision, 10);
     let (projected, order) = scene.project(scene.cells[0]);
     let thick = projected.thick.unwrap();
     let (corners, scalars) = scene.corners(scene.cells[0]);

@@ -8,8 +8,8 @@ use bytemuck::{Pod, Zeroable};
 use tetrascope_integrate::PsiTable;
 
 use crate::constants::Constant;
-pub use crate::layout_optics::OpticsUniform;
 pub use crate::layout_effects::*;
+pub use crate::layout_optics::OpticsUniform;
 
 /// One step of the lattice of positions and scalars, in local units.
 pub const LATTICE_STEP: f64 = 1.0 / (1u64 << 29) as f64;

@@ -20,8 +20,8 @@
 mod compose;
 mod constants;
 pub mod layout;
-mod layout_optics;
 mod layout_effects;
+mod layout_optics;
 mod program;
 mod sources;
 
