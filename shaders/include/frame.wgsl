@@ -17,6 +17,7 @@ struct Frame {
     termination: f32,
     cells: u32,
     points: u32,
+    tangent: vec4<u32>,
 }
 
 @group(0) @binding(0) var<uniform> frame: Frame;
@@ -30,4 +31,9 @@ fn pixel_center(pixel: vec2<i32>) -> vec2<f32> {
 fn ray_stretch(center: vec2<f32>) -> f32 {
     let across = center * frame.slope.xy;
     return sqrt(1.0 + dot(across, across));
+}
+
+// Depth, from the base, that depths are counted from.
+fn start_from_base() -> f32 {
+    return frame.eye.z + frame.eye.w;
 }

@@ -42,7 +42,7 @@ fn corners_of(vertices: vec4<u32>) -> Corners {
     let first = f32(a.z) * LATTICE_STEP - frame.eye.z;
     corners.depths = first + after;
     corners.depth = first + mean;
-    corners.depth_shown = f32(a.z) * LATTICE_STEP + mean - (frame.eye.z + frame.eye.w);
+    corners.depth_shown = f32(a.z) * LATTICE_STEP + mean - start_from_base();
     corners.beyond = after - mean;
     return corners;
 }

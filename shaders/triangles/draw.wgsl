@@ -7,16 +7,17 @@
 // Rasterizers move vertices onto a lattice of 1/16 to 1/256 of a pixel. So that this moves no attribute, the place on the screen is
 // interpolated too: where it differs from the pixel's center, attributes are carried over by their slopes.
 //
-// <set_up>, <sample>, <outline>: cells found ray by ray. <triangle>: what is interpolated, and the light of it.
+// <effects>: the light of a cell. <triangle>: what is interpolated, and the light of it.
 
 #use include/frame.wgsl
 #use triangles/list.wgsl
 #use triangles/fan.wgsl
 #use triangles/screen.wgsl
 #use triangles/varying.wgsl
-#use <set_up>
-#use <sample>
-#use <outline>
+#use cell/set_up.wgsl
+#use cell/sample.wgsl
+#use cell/optics.wgsl
+#use cell/outline.wgsl
 #use <effects>
 #use <triangle>
 

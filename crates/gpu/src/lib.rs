@@ -8,7 +8,11 @@ mod lookups;
 mod maps;
 mod targets;
 mod triangles;
+mod lattice;
+mod view;
 
+#[cfg(test)]
+mod cell_tests;
 #[cfg(test)]
 mod testing;
 #[cfg(test)]

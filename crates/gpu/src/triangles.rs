@@ -95,7 +95,7 @@ impl TrianglePath {
         constants.push(("MOST_LIGHT", Constant::F32(precision.most_light())));
         constants.push(("NEAR_SHARE", Constant::F32(interpolated.near_share())));
         let mut slots = slots.to_vec();
-        slots.push(("triangle", interpolated.file()));
+        slots.extend([("triangle", interpolated.file()), ("pieces", "integrate/pieces.wgsl")]);
         let fans = Program::compose("triangles/fans.wgsl", &slots, &constants)?;
         let accumulate = Program::compose("triangles/accumulate.wgsl", &slots, &constants)?;
         let draw = Program::compose("triangles/draw.wgsl", &slots, &constants)?;

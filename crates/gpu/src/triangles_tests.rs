@@ -11,16 +11,13 @@ use crate::kernel::Kernel;
 use crate::targets::{Display, Target, TargetPrecision, texture};
 use crate::testing::{checked, contents, gpu};
 use crate::triangles::{BlockToDraw, Interpolated, TrianglePath};
-use crate::{Gpu, testing};
+use crate::Gpu;
 
 const SIZE: u32 = 64;
 const EXTINCTION: f32 = 1.5;
 const EXTINCTION_SLOPE: f32 = 1.0;
 
 const SLOTS: &[Slot<'static>] = &[
-    ("set_up", "test/triangles_cell.wgsl"),
-    ("sample", "test/triangles_cell.wgsl"),
-    ("outline", "test/triangles_cell.wgsl"),
     ("effects", "effects/none.wgsl"),
     ("volume", "integrate/average.wgsl"),
     ("model", "integrate/density_emitter.wgsl"),
@@ -300,7 +297,7 @@ fn vertices(gpu: &Gpu, scene: &Scene) -> (Vec<[[f32; 4]; 24]>, Vec<[u32; 4]>) {
 }
 
 fn check_fans(scene: &Scene, what: &str) {
-    let Some(gpu) = testing::gpu() else { return };
+    let Some(gpu) = gpu() else { return };
     let (vertices, records) = vertices(&gpu, scene);
     let mut worst = [0.0_f64; 3];
     let mut same = 0;
@@ -436,7 +433,7 @@ fn fans_of_degenerate_cells() {
 }
 
 fn check_pictures(scene: &Scene, what: &str) {
-    let Some(gpu) = testing::gpu() else { return };
+    let Some(gpu) = gpu() else { return };
     for (precision, tolerance) in [(TargetPrecision::ThirtyTwo, 3e-4), (TargetPrecision::Sixteen, 1e-2)] {
         if !precision.is_supported(&gpu) {
             println!("skipped: 32-bit blending");
@@ -496,6 +493,7 @@ fn all_variants_are_programs() {
                 slots.retain(|(slot, _)| !["effects", "volume"].contains(slot));
                 slots.extend([
                     ("triangle", triangle),
+                    ("pieces", "integrate/pieces.wgsl"),
                     ("effects", &effects),
                     ("volume", &volume),
                     ("surface_visibility", "effects/visible_surfaces.wgsl"),

@@ -52,7 +52,7 @@ pub struct Frame {
     /// The eye from the base; last the depth that depths are counted from, from the eye.
     pub eye: [f32; 4],
     /// Where the ray of a column meets the plane through the base that faces the camera: column, place there and per column in
-    /// lattice steps, unused. The ray of a perspective view is that line through the eye.
+    /// lattice steps; last what half a column adds to the slope of the ray, times a power of two, see [`Self::tangent`].
     pub columns: [i32; 4],
     /// Likewise for rows.
     pub rows: [i32; 4],
@@ -76,4 +76,7 @@ pub struct Frame {
     pub cells: u32,
     /// Likewise.
     pub points: u32,
+    /// Bits: slopes of rays in integers are in units of 2^-first, 1 to 30; `columns` and `rows` give them after a shift down by the second
+    /// and the third. The fourth: lattice steps are rounded down by so many bits where products of two must fit 64.
+    pub tangent: [u32; 4],
 }
