@@ -4,11 +4,11 @@ mod device;
 mod effects;
 mod error;
 mod kernel;
+mod lattice;
 mod lookups;
 mod maps;
 mod targets;
 mod triangles;
-mod lattice;
 mod view;
 
 #[cfg(test)]

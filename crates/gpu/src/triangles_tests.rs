@@ -6,12 +6,14 @@ use glam::{DVec2, DVec3};
 use tetrascope_classify::{FanVertex, Projected, Tests, Viewpoint, by_planes, project};
 use tetrascope_shaders::layout::{EFFECT_CONSTANTS, Frame, LATTICE_STEP, NEGATIVE_BIT, OpticsUniform};
 use tetrascope_shaders::{Constant, Program, Slot};
+use tetrascope_view::View;
 
+use crate::Gpu;
 use crate::kernel::Kernel;
 use crate::targets::{Display, Target, TargetPrecision, texture};
 use crate::testing::{checked, contents, gpu};
 use crate::triangles::{BlockToDraw, Interpolated, TrianglePath};
-use crate::Gpu;
+use crate::view::{Part, frame_of};
 
 const SIZE: u32 = 64;
 const EXTINCTION: f32 = 1.5;
@@ -47,15 +49,16 @@ impl Random {
     }
 }
 
-/// Cells one behind the other, along camera axes from the base, and an eye.
+/// Cells one behind the other along camera axes, and an eye.
 struct Scene {
     points: Vec<[i32; 4]>,
     cells: Vec<[u32; 4]>,
-    /// From the base; the depth of an orthographic view's plane.
+    /// Also the middle of an orthographic view's plane.
     eye: DVec3,
     /// Slope of a pixel, or its size.
     pixel: f64,
     is_perspective: bool,
+    part: Part,
 }
 
 fn lattice(x: f64) -> i32 {
@@ -64,9 +67,8 @@ fn lattice(x: f64) -> i32 {
 
 impl Scene {
     fn new(eye: DVec3, pixel: f64, is_perspective: bool) -> Self {
-        let eye = eye.as_vec3().as_dvec3();
-        let pixel = f64::from(pixel as f32);
-        Self { points: Vec::new(), cells: Vec::new(), eye, pixel, is_perspective }
+        let part = Part { origin: [0; 2], extent: [SIZE; 2] };
+        Self { points: Vec::new(), cells: Vec::new(), eye, pixel, is_perspective, part }
     }
 
     fn add(&mut self, corners: [DVec3; 4], scalars: [f64; 4]) {
@@ -80,7 +82,7 @@ impl Scene {
         self.cells.push([first, first + 1, first + 2, (first + 3) | negative]);
     }
 
-    /// Corners from the base, and scalars.
+    /// Corners and scalars.
     fn corners(&self, cell: [u32; 4]) -> ([DVec3; 4], [f64; 4]) {
         let points = cell.map(|vertex| self.points[(vertex & !NEGATIVE_BIT) as usize]);
         let place = |p: [i32; 4]| DVec3::new(f64::from(p[0]), f64::from(p[1]), f64::from(p[2])) * LATTICE_STEP;
@@ -88,31 +90,26 @@ impl Scene {
     }
 
     fn frame(&self) -> Frame {
-        let first = SIZE as i32 / 2 + 3;
-        let center = f64::from(first) + 0.5 - f64::from(SIZE) / 2.0;
-        let per = if self.is_perspective { -self.pixel * self.eye.z } else { self.pixel };
-        let (per_steps, rest_per) = ((per / LATTICE_STEP).round(), per / LATTICE_STEP);
-        let line = |eye: f64| {
-            let place = (eye + center * per) / LATTICE_STEP;
-            ([first, place.round() as i32, per_steps as i32, 0], (place - place.round()) as f32)
+        let half = 0.5 * f64::from(SIZE) * self.pixel;
+        let view = View {
+            eye: self.eye,
+            right: DVec3::X,
+            up: DVec3::NEG_Y,
+            forward: DVec3::Z,
+            half_width: half,
+            half_height: half,
+            is_perspective: self.is_perspective,
+            width: SIZE,
+            height: SIZE,
         };
-        let ((columns, rest_x), (rows, rest_y)) = (line(self.eye.x), line(self.eye.y));
-        let rest_per = (rest_per - per_steps) as f32;
-        let slope = if self.is_perspective { self.pixel as f32 } else { 0.0 };
-        Frame {
-            eye: [self.eye.x as f32, self.eye.y as f32, self.eye.z as f32, 0.0],
-            columns,
-            rows,
-            rest: [rest_x, rest_per, rest_y, rest_per],
-            slope: [slope, slope, self.pixel as f32, self.pixel as f32],
-            size: [SIZE; 2],
-            extent: [SIZE; 2],
-            tiles: [SIZE / 16; 2],
-            is_perspective: u32::from(self.is_perspective),
-            cells: self.cells.len() as u32,
-            points: self.points.len() as u32,
-            ..Frame::default()
-        }
+        frame_of(&view, self.part, 0.0, self.cells.len() as u32, self.points.len() as u32)
+    }
+
+    /// Points from the frame's base.
+    fn projected(&self) -> Vec<[i32; 4]> {
+        let frame = self.frame();
+        let base = [frame.right[3], frame.down[3], frame.forward[3], 0];
+        self.points.iter().map(|point| [0, 1, 2, 3].map(|axis| point[axis] - base[axis])).collect()
     }
 
     fn viewpoint(&self) -> Viewpoint {
@@ -185,7 +182,7 @@ impl Uploaded {
     fn new(gpu: &Gpu, scene: &Scene) -> Self {
         Self {
             frame: gpu.uniform_of("frame", &scene.frame()),
-            points: gpu.storage_of("points", &scene.points),
+            points: gpu.storage_of("points", &scene.projected()),
             drawn: gpu.storage_of("drawn", &scene.cells),
             totals: gpu.storage_of("totals", &[scene.cells.len() as u32, 0, 0, 0]),
             picture: gpu.storage("picture", u64::from(SIZE * SIZE) * 16),
@@ -223,7 +220,8 @@ fn draw(gpu: &Gpu, scene: &Scene, interpolated: Interpolated, precision: TargetP
             let mut resources = uploaded.named();
             resources.push(("block", block.as_entire_binding()));
             resources.push(("drawn", drawn.as_entire_binding()));
-            let place = BlockToDraw { cells, is_first: number + 1 == blocks, is_last: number == 0, extent: [SIZE; 2] };
+            let place =
+                BlockToDraw { cells, is_first: number + 1 == blocks, is_last: number == 0, extent: scene.part.extent };
             path.record(gpu, &mut encoder, &resources, &target, place);
         }
         contents(gpu, encoder, &uploaded.picture, (SIZE * SIZE) as usize)
@@ -234,7 +232,12 @@ fn draw(gpu: &Gpu, scene: &Scene, interpolated: Interpolated, precision: TargetP
 fn worst(scene: &Scene, picture: &[[f32; 4]]) -> f64 {
     let mut worst = 0.0_f64;
     for (place, pixel) in picture.iter().enumerate() {
-        let traced = scene.trace(place as u32 % SIZE, place as u32 / SIZE);
+        let [columns, rows] = scene.part.extent;
+        let (x, y) = (place as u32 % columns, place as u32 / columns);
+        if y >= rows {
+            break;
+        }
+        let traced = scene.trace(scene.part.origin[0] + x, scene.part.origin[1] + y);
         for (found, expected) in pixel.iter().zip(traced) {
             let difference = (f64::from(*found) - expected).abs();
             assert!(difference.is_finite(), "pixel {place} is {pixel:?}");
@@ -359,7 +362,9 @@ fn check_fans(scene: &Scene, what: &str) {
             let p = corners[corner] - scene.eye;
             let over = if scene.is_perspective { p.truncate() / p.z } else { p.truncate() } / scene.pixel;
             let [x, y, ..] = vertices[2 * number + 1].map(f64::from);
-            let expected = over - 3.5;
+            let frame = scene.frame();
+            let center = |pixel: i32| f64::from(pixel) + 0.5 - f64::from(SIZE) / 2.0;
+            let expected = over - DVec2::new(center(frame.columns[0]), center(frame.rows[0]));
             let distance = DVec2::new(x, y).distance(expected);
             assert!(distance < 1e-5 * (10.0 + expected.length()), "{what}: {x} {y} is not {expected}");
             assert!(vertices[2 * number][1] == 0.0);
@@ -520,6 +525,13 @@ fn all_variants_are_programs() {
         }
     }
     assert_eq!(count, 56);
+}
+
+#[test]
+fn parts_of_pictures_agree_with_rays() {
+    let mut scene = layers(DVec3::new(0.02, 0.03, -1.0), 0.01, true, -0.8, 0.1, 6);
+    scene.part = Part { origin: [19, 23], extent: [35, 30] };
+    check_pictures(&scene, "part");
 }
 
 #[test]
