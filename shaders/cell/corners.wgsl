@@ -1,7 +1,6 @@
 // Corners of a cell, as the stage `project` left them.
 
-// Position from the base in lattice steps: right, down, forward; and scalar.
-@group(0) @binding(2) var<storage, read> points: array<vec4<i32>>;
+#use include/points.wgsl
 
 // The cell's vertices without the bits that say something else.
 fn bare(vertices: vec4<u32>) -> vec4<u32> {

@@ -58,6 +58,15 @@ impl Kernel {
         }
     }
 
+    /// A pass of its own with this kernel alone, over a rectangle of groups.
+    pub(crate) fn run_over(&self, encoder: &mut CommandEncoder, group: &BindGroup, [x, y]: [u32; 2]) {
+        let descriptor = wgpu::ComputePassDescriptor { label: Some(&self.name), timestamp_writes: None };
+        let mut pass = encoder.begin_compute_pass(&descriptor);
+        pass.set_pipeline(&self.pipeline);
+        pass.set_bind_group(0, group, &[]);
+        pass.dispatch_workgroups(x, y, 1);
+    }
+
     /// A pass of its own with this kernel alone.
     pub(crate) fn run_alone(&self, encoder: &mut CommandEncoder, group: &BindGroup, groups: u32) {
         let descriptor = wgpu::ComputePassDescriptor { label: Some(&self.name), timestamp_writes: None };

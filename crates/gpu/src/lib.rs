@@ -23,6 +23,8 @@ mod report;
 mod scan;
 mod sorting;
 mod stopwatch;
+mod targets;
+mod triangles;
 mod view;
 mod work;
 
@@ -40,6 +42,8 @@ mod power_functions_tests;
 mod radix_tests;
 #[cfg(test)]
 mod scan_tests;
+#[cfg(test)]
+mod triangles_tests;
 #[cfg(test)]
 mod testing;
 

@@ -1,0 +1,197 @@
+//! What hardware blends into, and pictures for display.
+
+use tetrascope_shaders::{Binding, Program};
+use wgpu::{CommandEncoder, Features, RenderPipeline, TextureFormat, TextureUsages, TextureView};
+
+use crate::kernel::{Named, bind};
+use crate::{Gpu, GpuError};
+
+/// Floats of the target that hardware blends triangles into.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum TargetPrecision {
+    /// 32 bits a channel: what is blended agrees with the compute path. Not every adapter can.
+    ThirtyTwo,
+    /// 16 bits a channel: every adapter can. Each draw block rounds on its own and is summed up in 32 bits.
+    Sixteen,
+}
+
+impl TargetPrecision {
+    /// The most precise that a device blends.
+    pub fn best(gpu: &Gpu) -> Self {
+        if Self::ThirtyTwo.is_supported(gpu) { Self::ThirtyTwo } else { Self::Sixteen }
+    }
+
+    /// Whether a device blends into it.
+    pub fn is_supported(self, gpu: &Gpu) -> bool {
+        self == Self::Sixteen || gpu.device.features().contains(Features::FLOAT32_BLENDABLE)
+    }
+
+    pub(crate) fn format(self) -> TextureFormat {
+        match self {
+            Self::ThirtyTwo => TextureFormat::Rgba32Float,
+            Self::Sixteen => TextureFormat::Rgba16Float,
+        }
+    }
+
+    /// The brightest light that one cell may add: 16-bit floats end at 65504, and their infinity would darken what comes before it.
+    pub(crate) fn most_light(self) -> f32 {
+        match self {
+            Self::ThirtyTwo => f32::MAX,
+            Self::Sixteen => 60_000.0,
+        }
+    }
+
+    fn bytes_per_pixel(self) -> u64 {
+        match self {
+            Self::ThirtyTwo => 16,
+            Self::Sixteen => 8,
+        }
+    }
+}
+
+/// A texture that triangles are blended into: linear light and opacity.
+#[derive(Debug)]
+pub(crate) struct Target {
+    pub(crate) view: TextureView,
+    pub(crate) precision: TargetPrecision,
+    size: [u32; 2],
+}
+
+impl Target {
+    /// A target for pictures up to a size, or parts of them.
+    pub(crate) fn new(gpu: &Gpu, size: [u32; 2], precision: TargetPrecision) -> Self {
+        let size = size.map(|side| side.max(1));
+        let usage = TextureUsages::RENDER_ATTACHMENT | TextureUsages::TEXTURE_BINDING;
+        let view = texture(gpu, "triangles", size, precision.format(), usage).create_view(&Default::default());
+        Self { view, precision, size }
+    }
+
+    /// Width and height, pixels.
+    pub(crate) fn size(&self) -> [u32; 2] {
+        self.size
+    }
+
+    /// Memory that it takes.
+    pub(crate) fn bytes(&self) -> u64 {
+        u64::from(self.size[0]) * u64::from(self.size[1]) * self.precision.bytes_per_pixel()
+    }
+}
+
+/// A flat texture.
+pub(crate) fn texture(
+    gpu: &Gpu,
+    label: &str,
+    [width, height]: [u32; 2],
+    format: TextureFormat,
+    usage: TextureUsages,
+) -> wgpu::Texture {
+    gpu.device.create_texture(&wgpu::TextureDescriptor {
+        label: Some(label),
+        size: wgpu::Extent3d { width, height, depth_or_array_layers: 1 },
+        mip_level_count: 1,
+        sample_count: 1,
+        dimension: wgpu::TextureDimension::D2,
+        format,
+        usage,
+        view_formats: &[],
+    })
+}
+
+/// A pipeline that draws triangles from a program without vertex buffers, and what it binds.
+#[derive(Debug)]
+pub(crate) struct Drawing {
+    pub(crate) pipeline: RenderPipeline,
+    pub(crate) bindings: Vec<Binding>,
+    label: String,
+}
+
+impl Drawing {
+    pub(crate) fn new(
+        gpu: &Gpu,
+        program: &Program,
+        [vertex, fragment]: [&str; 2],
+        format: TextureFormat,
+        blend: Option<wgpu::BlendState>,
+    ) -> Self {
+        let label = format!("{} {fragment}", program.name());
+        let module = gpu.device.create_shader_module(wgpu::ShaderModuleDescriptor {
+            label: Some(program.name()),
+            source: wgpu::ShaderSource::Wgsl(program.source().into()),
+        });
+        let targets = [Some(wgpu::ColorTargetState { format, blend, write_mask: wgpu::ColorWrites::ALL })];
+        let pipeline = gpu.device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
+            label: Some(&label),
+            layout: None,
+            vertex: wgpu::VertexState {
+                module: &module,
+                entry_point: Some(vertex),
+                compilation_options: wgpu::PipelineCompilationOptions::default(),
+                buffers: &[],
+            },
+            primitive: wgpu::PrimitiveState::default(),
+            depth_stencil: None,
+            multisample: wgpu::MultisampleState::default(),
+            fragment: Some(wgpu::FragmentState {
+                module: &module,
+                entry_point: Some(fragment),
+                compilation_options: wgpu::PipelineCompilationOptions::default(),
+                targets: &targets,
+            }),
+            multiview_mask: None,
+            cache: None,
+        });
+        let mut bindings = program.bindings(vertex);
+        bindings.extend(program.bindings(fragment));
+        bindings.sort_by_key(|binding| binding.number);
+        bindings.dedup_by_key(|binding| binding.number);
+        Self { pipeline, bindings, label }
+    }
+
+    /// Binds what both of its stages use.
+    pub(crate) fn bind(&self, gpu: &Gpu, resources: &[Named<'_>]) -> wgpu::BindGroup {
+        bind(gpu, &self.label, &self.pipeline.get_bind_group_layout(0), &self.bindings, resources)
+    }
+
+    /// A pass that draws into a view; `clear` empties it first.
+    pub(crate) fn pass<'a>(
+        &self,
+        encoder: &'a mut CommandEncoder,
+        view: &TextureView,
+        clear: bool,
+    ) -> wgpu::RenderPass<'a> {
+        let load = if clear { wgpu::LoadOp::Clear(wgpu::Color::TRANSPARENT) } else { wgpu::LoadOp::Load };
+        encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
+            label: Some(&self.label),
+            color_attachments: &[Some(wgpu::RenderPassColorAttachment {
+                view,
+                depth_slice: None,
+                resolve_target: None,
+                ops: wgpu::Operations { load, store: wgpu::StoreOp::Store },
+            })],
+            ..Default::default()
+        })
+    }
+}
+
+/// Shows pictures on a screen.
+#[derive(Debug)]
+pub(crate) struct Display(Drawing);
+
+impl Display {
+    /// - `format`: of the views to draw into, one of those that turn linear light into sRGB
+    pub(crate) fn new(gpu: &Gpu, format: TextureFormat) -> Result<Self, GpuError> {
+        let program = Program::compose("triangles/resolve.wgsl", &[], &[])?;
+        Ok(Self(Drawing::new(gpu, &program, ["cover", "resolve"], format, None)))
+    }
+
+    /// Draws `picture` over `background` into a view of the size of the part that is drawn.
+    ///
+    /// - `resources`: `frame`, `picture`, and `background`, a uniform of linear light
+    pub(crate) fn record(&self, gpu: &Gpu, encoder: &mut CommandEncoder, resources: &[Named<'_>], view: &TextureView) {
+        let group = self.0.bind(gpu, resources);
+        let mut pass = self.0.pass(encoder, view, true);
+        pass.set_pipeline(&self.0.pipeline);
+        pass.set_bind_group(0, &group, &[]);
+        pass.draw(0..3, 0..1);
+    }
+}
