@@ -489,14 +489,14 @@ fn what_is_asked_of_a_gpu_goes_with_one() {
         "a.toml",
         "[mesh]\npath = \"mesh.vtu\"\n[quality]\nbackend = \"gpu\"\ngpu_path = \"triangles\"\ntarget_bits = 16\nadapter = \"0\"\n",
     );
+    let vertex = ["render", "mesh.vtu", "--backend", "gpu", "--gpu-path", "compute", "--integration", "vertex"];
+    has(&run.bad(1, &vertex), &["quality.integration = \"vertex\"", "quality.gpu_path = \"triangles\""]);
+    let cut = ["render", "mesh.vtu", "--backend", "gpu", "--order", "mpvo", "--cycles", "cut"];
+    has(&run.bad(1, &cut), &["quality.cycles = \"cut\"", "\"per-pixel\"", "quality.backend = \"cpu\""]);
     // With the back end goes what the scene asks of it, without a word.
     let output = run.tetrascope(&["render", "a.toml", "--size", "8", "--backend", "cpu", "--explain"]);
     assert_eq!(stderr(&output), "");
     has(&String::from_utf8_lossy(&output.stdout), &["explain     the back end cpu uses no device"]);
     let output = run.tetrascope(&["render", "mesh.vtu", "--size", "8", "--gpu-path", "compute"]);
     has(&stderr(&output), &["quality.gpu_path has no effect: the back end is cpu, not gpu"]);
-    let vertex = ["render", "mesh.vtu", "--backend", "gpu", "--gpu-path", "compute", "--integration", "vertex"];
-    has(&run.bad(1, &vertex), &["quality.integration = \"vertex\"", "quality.gpu_path = \"triangles\""]);
-    let cut = ["render", "mesh.vtu", "--backend", "gpu", "--order", "mpvo", "--cycles", "cut"];
-    has(&run.bad(1, &cut), &["quality.cycles = \"cut\"", "\"per-pixel\"", "quality.backend = \"cpu\""]);
 }
