@@ -8,6 +8,7 @@
 
 mod cycles;
 mod golden;
+mod gpu;
 mod hostile;
 mod invariants;
 mod isosurfaces;

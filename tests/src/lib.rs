@@ -3,6 +3,7 @@
 pub mod chords;
 pub mod compare;
 pub mod golden;
+pub mod gpu;
 pub mod meshes;
 pub mod pictures;
 pub mod shapes;

@@ -55,7 +55,7 @@ fn conclusion(found: &[AdapterDescription], taken: Option<usize>) -> String {
     }
     let install = "install your graphics card's driver of Vulkan, or on Debian mesa-vulkan-drivers, which has one in software too";
     if found.iter().any(|adapter| adapter.is_capable) {
-        return "--backend auto draws with the CPU: no graphics card is there, and software for processors is taken only by \
+        return "--backend auto draws with the CPU: no graphics card answers (if there is one, install its driver of Vulkan), and software for processors is taken only by \
                 --backend gpu or --adapter"
             .to_owned();
     }

@@ -95,10 +95,13 @@ impl Report {
         }
         let max_error = completed.file.quality.max_error.unwrap_or_default();
         let used = threads.unwrap_or_else(|| std::thread::available_parallelism().map_or(1, usize::from));
-        let plural = if used == 1 { "" } else { "s" };
+        let threads = match plan.backend {
+            Backend::Gpu => String::new(),
+            Backend::Cpu | Backend::Reference => format!(", {used} thread{}", if used == 1 { "" } else { "s" }),
+        };
         let reason = plan.decisions.iter().find(|decision| decision.subject == "backend");
         let reason = reason.map_or_else(String::new, |decision| format!(": {}", decision.reason));
-        self.say("backend", &format!("{}, {used} thread{plural}{reason}", plan.backend));
+        self.say("backend", &format!("{}{threads}{reason}", plan.backend));
         let decisions: Vec<Value> = plan
             .decisions
             .iter()

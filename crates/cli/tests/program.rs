@@ -180,7 +180,11 @@ fn wrong_usage_is_two() {
     has(&run.bad(2, &["render", "mesh.vtu", "--order", "depth"]), &["bsp-xmpvo", "k-buffer"]);
     has(&run.bad(2, &["render", "mesh.vtu", "--cycles", "ignore"]), &["report, cut or per-pixel"]);
     has(&run.bad(2, &["render", "mesh.vtu", "--order", "k-buffer", "--window", "0"]), &["0"]);
-    has(&run.bad(2, &["render", "mesh.vtu", "--backend", "gpu"]), &["cpu and reference"]);
+    has(&run.bad(2, &["render", "mesh.vtu", "--backend", "cuda"]), &["cpu, gpu and reference"]);
+    has(&run.bad(2, &["render", "mesh.vtu", "--gpu-path", "mesh"]), &["triangles and compute"]);
+    has(&run.bad(2, &["render", "mesh.vtu", "--target-bits", "24"]), &["16 and 32"]);
+    has(&run.bad(2, &["render", "mesh.vtu", "--explain", "--quiet"]), &["cannot be used with"]);
+    run.bad(2, &["devices", "mesh.vtu"]);
     has(&run.bad(2, &["render", "mesh.vtu", "--fov", "30", "--orthographic", "2"]), &["cannot be used with"]);
     has(&run.bad(2, &["render", "mesh.vtu", "--threads", "0"]), &["0"]);
     has(&run.bad(2, &["render", "mesh.vtu", "a.toml"]), &["names its mesh itself"]);
@@ -441,4 +445,58 @@ fn odd_but_valid_files_are_drawn_and_their_oddness_is_said() {
         has(&text, &[said]);
         assert!(!text.contains("blank"), "{name}: {text}");
     }
+}
+
+#[test]
+fn devices_are_listed_where_there_is_none_too() {
+    let run = Run::new();
+    let text = run.good(&["devices"]);
+    has(text.lines().last().unwrap(), &["--backend auto draws with"]);
+    let json: serde_json::Value = serde_json::from_str(&run.good(&["devices", "--json"])).unwrap();
+    let adapters = json["adapters"].as_array().unwrap();
+    for (number, adapter) in adapters.iter().enumerate() {
+        assert_eq!(adapter["number"], number);
+        assert!(adapter["name"].is_string() && adapter["largest_binding"].is_u64(), "{adapter}");
+        assert!(text.contains(adapter["name"].as_str().unwrap()), "{text}");
+    }
+    assert!(json["auto"].is_null() || json["auto"].as_u64().is_some_and(|number| number < adapters.len() as u64));
+}
+
+#[test]
+fn a_gpu_that_is_not_there() {
+    let run = Run::new();
+    let asked = ["render", "mesh.vtu", "--size", "8", "--adapter", "a card that no machine has", "--backend"];
+    has(
+        &run.bad(1, &[&asked[..], &["gpu"]].concat()),
+        &["no graphics adapter's name contains \"a card that no machine has\""],
+    );
+    // Left open, the CPU draws, and one line says why.
+    let output = run.tetrascope(&[&asked[..], &["auto", "--write-scene", "a.toml"]].concat());
+    let (said, warned) = (String::from_utf8_lossy(&output.stdout).into_owned(), stderr(&output));
+    assert_eq!(output.status.code(), Some(0), "{warned}");
+    has(&said, &["backend     cpu, ", ": the GPU failed"]);
+    has(&warned, &["the back end is cpu, as the GPU failed: no graphics adapter's name contains"]);
+    assert_eq!(warned.lines().count(), 1, "{warned}");
+    let written = std::fs::read_to_string(run.path("a.toml")).unwrap();
+    has(&written, &["backend = \"cpu\""]);
+    assert!(!written.contains("adapter"), "{written}");
+}
+
+#[test]
+fn what_is_asked_of_a_gpu_goes_with_one() {
+    let run = Run::new();
+    run.write(
+        "a.toml",
+        "[mesh]\npath = \"mesh.vtu\"\n[quality]\nbackend = \"gpu\"\ngpu_path = \"triangles\"\ntarget_bits = 16\nadapter = \"0\"\n",
+    );
+    let vertex = ["render", "mesh.vtu", "--backend", "gpu", "--gpu-path", "compute", "--integration", "vertex"];
+    has(&run.bad(1, &vertex), &["quality.integration = \"vertex\"", "quality.gpu_path = \"triangles\""]);
+    let cut = ["render", "mesh.vtu", "--backend", "gpu", "--order", "mpvo", "--cycles", "cut"];
+    has(&run.bad(1, &cut), &["quality.cycles = \"cut\"", "\"per-pixel\"", "quality.backend = \"cpu\""]);
+    // With the back end goes what the scene asks of it, without a word.
+    let output = run.tetrascope(&["render", "a.toml", "--size", "8", "--backend", "cpu", "--explain"]);
+    assert_eq!(stderr(&output), "");
+    has(&String::from_utf8_lossy(&output.stdout), &["explain     the back end cpu uses no device"]);
+    let output = run.tetrascope(&["render", "mesh.vtu", "--size", "8", "--gpu-path", "compute"]);
+    has(&stderr(&output), &["quality.gpu_path has no effect: the back end is cpu, not gpu"]);
 }

@@ -11,6 +11,10 @@
 //!    an error here. Back ends take it and report their [`Progress`] by [`Stage`]. What a scene does not ask for is not
 //!    in it: [`Plan::isosurfaces`], [`Plan::lighting`], [`Plan::table_settings`], [`Plan::gradients`].
 //!
+//! An order and a back end that a scene leaves open depend on the mesh and the machine: whoever knows these settles them, in the scene and
+//! in the file (`Completed::settle_order`, `Completed::settle_backend`). What back ends have in common is here, since they do not see each
+//! other: [`Plan::check`], [`check_scalars`] and [`Rendered`].
+//!
 //! ```
 //! # #[cfg(feature = "file")] {
 //! use tetrascope_scene::{MeshFacts, SceneFile};

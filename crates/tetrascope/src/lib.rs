@@ -20,7 +20,9 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
-//! Every step is public: keep the [`Volume`] to draw other fields, and a [`CpuRenderer`] to draw one from many sides.
+//! Every step is public: keep the [`Volume`] to draw other fields, and a [`VolumeField`] to draw one from many sides: it keeps its
+//! [`CpuRenderer`] or [`GpuRenderer`]. A scene that leaves its back end open is drawn by a graphics card if [`adapters`] has one that
+//! takes it, with a [`Decision`] that says so; one that asks for the GPU is drawn by that or not at all.
 //! Isosurfaces and the light are sections of the scene ([`IsosurfaceSection`], [`LightSection`]). What the back ends
 //! compute with is there for itself too: every way to integrate behind its name ([`Integrator`]), tables and maps
 //! ([`Table2d`], [`Table3d`], [`IsosurfaceMap`], [`SmoothMaps`]), and how far a way is from the exact light

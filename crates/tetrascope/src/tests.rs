@@ -3,8 +3,8 @@
 use tetrascope_mesh::rings_sample;
 
 use crate::{
-    Backend, Choice, Error, IsosurfaceSection, OpticalModel, OrderMethod, SceneFile, Silent, Volume, render_scene,
-    render_volume,
+    Backend, Choice, CycleRemedy, Error, GpuError, IsosurfaceSection, OpticalModel, OrderMethod, SceneFile, Silent,
+    Volume, render_scene, render_volume,
 };
 
 fn small_scene() -> SceneFile {
@@ -191,4 +191,69 @@ fn the_number_of_threads_changes_nothing() {
     assert!(one == three);
     assert!(crate::seen_pixels(&one.3) > 100);
     assert_eq!(crate::seen_pixels(&crate::LinearImage::transparent(4, 4)), 0);
+}
+
+/// A scene that asks for a card that no machine has.
+fn on_no_card(backend: Choice<Backend>) -> SceneFile {
+    let mut scene = small_scene();
+    scene.quality.backend = backend;
+    scene.quality.adapter = Some("a card that no machine has".to_owned());
+    scene
+}
+
+#[test]
+fn auto_takes_the_cpu_where_the_gpu_fails_and_says_why() {
+    let volume = Volume::from_dataset(rings_sample(4), "rings").unwrap();
+    let plain = render_volume(&volume, &small_scene(), &Silent).unwrap();
+    let open = render_volume(&volume, &on_no_card(Choice::Auto), &Silent).unwrap();
+    assert_eq!((open.plan.backend, open.device.is_none()), (Backend::Cpu, true));
+    assert_eq!(open.image.pixels(), plain.image.pixels());
+    let [warning] = open.warnings.as_slice() else { panic!("{:?}", open.warnings) };
+    assert!(
+        warning.starts_with("the back end is cpu, as the GPU failed: no graphics adapter's name contains"),
+        "{warning}"
+    );
+    let said: Vec<_> = open.plan.decisions.iter().filter(|d| d.subject == "backend").collect();
+    assert!(said.len() == 1 && said[0].choice == "cpu", "{said:?}");
+    // Drawn again the scene takes the CPU without a word.
+    assert_eq!((open.completed.quality.backend, &open.completed.quality.adapter), (Choice::Named(Backend::Cpu), &None));
+}
+
+#[test]
+fn a_gpu_that_is_asked_for_is_not_replaced() {
+    let volume = Volume::from_dataset(rings_sample(4), "rings").unwrap();
+    let error = render_volume(&volume, &on_no_card(Choice::Named(Backend::Gpu)), &Silent).unwrap_err();
+    assert!(matches!(error, Error::Gpu(GpuError::NoSuchAdapter { .. })), "{error:?}");
+    let text = error.to_string();
+    assert!(text.contains("\"a card that no machine has\""), "{text}");
+}
+
+#[test]
+fn auto_takes_the_cpu_for_what_no_gpu_draws() {
+    let volume = Volume::from_dataset(rings_sample(4), "rings").unwrap();
+    let mut scene = on_no_card(Choice::Auto);
+    scene.quality.order = Choice::Named(OrderMethod::BspXmpvo);
+    scene.quality.cycles = Some(CycleRemedy::Cut);
+    let picture = render_volume(&volume, &scene, &Silent).unwrap();
+    assert_eq!((picture.plan.backend, picture.warnings.as_slice()), (Backend::Cpu, &[][..]));
+    let said = picture.plan.decisions.iter().find(|d| d.subject == "backend").unwrap();
+    assert!(said.reason.contains("draws whole ones"), "{said}");
+    scene.quality.backend = Choice::Named(Backend::Gpu);
+    let error = render_volume(&volume, &scene, &Silent).unwrap_err();
+    assert!(matches!(error, Error::Scene(_)) && error.to_string().contains("quality.cycles"), "{error}");
+}
+
+/// Clones of a field share what is learned of its mesh, and the renderer has the same.
+#[test]
+fn what_is_known_of_a_mesh_is_shared() {
+    let volume = Volume::from_dataset(rings_sample(4), "rings").unwrap();
+    let field = volume.field(None).unwrap();
+    let copy = field.clone();
+    let is_convex = copy.visibility().is_convex(copy.cells());
+    let own: Vec<_> = copy.cells().tetrahedra.to_vec();
+    let renderer = field.renderer().unwrap();
+    assert_eq!(renderer.cells().tetrahedra, own);
+    assert_eq!(renderer.visibility().is_convex(renderer.cells()), is_convex);
+    assert!(std::sync::Arc::ptr_eq(renderer.visibility(), copy.visibility()));
+    assert!(std::ptr::eq(copy.renderer().unwrap(), renderer));
 }

@@ -29,7 +29,18 @@ const LAYERS: &[Layer] = &[
         "it sees one cell at a time, without color",
     ),
     layer("tetrascope-order", 1, &["tetrascope-integrate"], "it knows no color"),
-    layer("tetrascope-scene", 2, &["tetrascope-classify"], "it plans and computes nothing of a picture"),
+    layer(
+        "tetrascope-shaders",
+        1,
+        &["tetrascope-mesh", "tetrascope-view"],
+        "it has programs and the layout of what they read, and no device",
+    ),
+    layer(
+        "tetrascope-scene",
+        2,
+        &["tetrascope-classify", "tetrascope-shaders"],
+        "it plans and computes nothing of a picture",
+    ),
     layer(
         "tetrascope-io",
         3,
@@ -37,6 +48,7 @@ const LAYERS: &[Layer] = &[
         "it reads and writes and does not know what for",
     ),
     layer("tetrascope-cpu", 3, &[], "a back end sees no other one and opens no file"),
+    layer("tetrascope-gpu", 3, &[], "a back end sees no other one and opens no file"),
     layer("tetrascope", 4, &[], "it joins the others"),
     layer("tetrascope-cli", 5, &[], "it goes through the facade"),
     layer("tetrascope-tests", 5, &[], "it crosses crates"),
@@ -48,6 +60,7 @@ const RESERVED: &[(&str, &[&str], &str)] = &[
     ("clap", &["tetrascope-cli", "xtask"], "only programs have a command line"),
     ("indicatif", &["tetrascope-cli"], "only the command line prints"),
     ("wgpu", &["tetrascope-gpu"], "only one crate sees the driver"),
+    ("naga", &["tetrascope-shaders"], "only one crate reads programs"),
     ("png", &["tetrascope-io"], "only io knows formats of pictures"),
     ("exr", &["tetrascope-io"], "only io knows formats of pictures"),
 ];

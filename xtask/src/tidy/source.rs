@@ -5,13 +5,15 @@ use super::{Finding, Tree};
 /// Most lines of a file that is not a table made by a program.
 const MOST_LINES: usize = 900;
 
-/// Every file opens by saying what it is.
+/// Every file opens by saying what it is: in Rust as documentation, in WGSL as a comment.
 pub(super) fn headers(tree: &Tree) -> Vec<Finding> {
-    let lacks = |(path, text): (&str, &str)| {
-        let good = text.lines().next().is_some_and(|line| line.starts_with("//! ") && line.len() > 10);
-        (!good).then(|| Finding::new(path, "does not say what it is", "open with a line `//! ...`"))
+    let lacks = |mark: &'static str| {
+        move |(path, text): (&str, &str)| {
+            let good = text.lines().next().is_some_and(|line| line.starts_with(mark) && line.len() > 10);
+            (!good).then(|| Finding::new(path, "does not say what it is", format!("open with a line `{mark}...`")))
+        }
     };
-    tree.texts(".rs").filter_map(lacks).collect()
+    tree.texts(".rs").filter_map(lacks("//! ")).chain(tree.texts(".wgsl").filter_map(lacks("// "))).collect()
 }
 
 /// Files that can be read in one go; tables that a program made say so in their first line.

@@ -65,6 +65,7 @@ fn manifests_that_stand_alone() {
         ("[lints]\nworkspace = true", "", "lints are not inherited"),
         ("glam.workspace = true", "glam = \"0.1\"", "dependencies.glam has a version"),
         ("glam.workspace = true", "clap.workspace = true", "clap is for tetrascope-cli and xtask"),
+        ("glam.workspace = true", "naga.workspace = true", "naga is for tetrascope-shaders"),
         ("glam.workspace = true", "tetrascope-order.workspace = true", "tetrascope-order is not below tetrascope-mesh"),
         ("glam.workspace = true", "tetrascope-view.workspace = true", "tetrascope-view is not below tetrascope-mesh"),
         ("Meshes of two lines.", "Other", "make them one"),
@@ -84,6 +85,18 @@ fn crate_that_must_not_know() {
         .with("README.md", "    cargo test --release --workspace\n[a](crates/mesh) [b](crates/order)\n")
         .with("ARCHITECTURE.md", "**`crates/mesh`** a\n**`crates/order`** b\n");
     check_finds(tree, "tetrascope-order must not know tetrascope-integrate; it knows no color");
+}
+
+#[test]
+fn back_ends_that_know_each_other() {
+    let gpu = MESH.replace("tetrascope-mesh", "tetrascope-gpu").replace("glam", "tetrascope-cpu");
+    let tree = good()
+        .with("crates/gpu/Cargo.toml", &gpu)
+        .with("crates/gpu/src/lib.rs", "//! Meshes of two lines.\n")
+        .with("crates/gpu/README.md", "# tetrascope-gpu\n\nPictures.\n")
+        .with("README.md", "    cargo test --release --workspace\n[a](crates/mesh) [b](crates/gpu)\n")
+        .with("ARCHITECTURE.md", "**`crates/mesh`** a\n**`crates/gpu`** b\n");
+    check_finds(tree, "tetrascope-cpu is not below tetrascope-gpu");
 }
 
 #[test]
@@ -132,6 +145,8 @@ fn printing_and_opening_files() {
 #[test]
 fn headers_and_lengths() {
     check_finds(good().with("crates/mesh/src/b.rs", "fn f() {}\n"), "does not say what it is");
+    check_finds(good().with("shaders/a/b.wgsl", "fn f() {}\n"), "shaders/a/b.wgsl: does not say what it is");
+    assert_eq!(findings(&good().with("shaders/a/b.wgsl", "// One cell a thread.\n")), [""; 0]);
     let long = "x\n".repeat(900);
     check_finds(good().with("crates/mesh/src/b.rs", &format!("//! A long file.\n{long}")), "901 lines");
     assert_eq!(findings(&good().with("crates/mesh/src/b.rs", &format!("//! A generated table.\n{long}"))), [""; 0]);
