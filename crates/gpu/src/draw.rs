@@ -26,8 +26,10 @@ use crate::kept::{Kept, TOTALS};
 use crate::kernels::Variant;
 use crate::lookups::Lookups;
 use crate::part::{halves, parts};
+use crate::power_functions::PowerFrame;
 use crate::renderer::GpuRenderer;
 use crate::sorting::{InPixels, MOST_HELD, Source};
+use crate::targets::best_target;
 use crate::view::Part;
 
 /// Places of `totals`: cells that are drawn, pairs that were needed, and what was left out.
@@ -45,6 +47,8 @@ pub(crate) struct Drawing<'a> {
     pub(crate) view: View,
     pub(crate) path: Path,
     pub(crate) source: Source,
+    /// Of a frame that the device sorts by keys.
+    pub(crate) power: Option<PowerFrame>,
 }
 
 /// How cells become pixels.
@@ -87,7 +91,7 @@ impl<'a> Drawing<'a> {
             return Err(GpuError::CannotCut);
         }
         let view = plan.view.in_frame(renderer.frame.origin, renderer.frame.scale);
-        Ok(Self { renderer, plan, progress, view, path, source: Source::of(plan.order) })
+        Ok(Self { renderer, plan, progress, view, path, source: Source::of(plan.order), power: None })
     }
 
     /// Draws it.
@@ -98,11 +102,25 @@ impl<'a> Drawing<'a> {
         let mut watch = Stopwatch::start();
         let renderer = self.renderer;
         let mut notes = Vec::new();
+        if renderer.mesh.parts.len() > 1 && matches!(self.source, Source::Centroids | Source::Power) {
+            notes.push("the order was made on the CPU: the cells do not fit into one binding".to_owned());
+            self.source = Source::Made;
+        }
         let means = self.means(kept, &mut watch)?;
         let (mut guarantee, mut rings, mut cyclic) = (Guarantee::Unsorted, 0, 0);
         match self.source {
             Source::AsTheyCome => {}
             Source::Centroids => guarantee = Guarantee::Approximate,
+            Source::Power => match kept.power_frame(renderer, &self.view) {
+                Ok(frame) => {
+                    self.power = Some(frame);
+                    guarantee = renderer.visibility.power(renderer.cells()).guarantee();
+                }
+                Err(reason) => {
+                    notes.push(format!("the order was made on the CPU: {reason}"));
+                    self.source = Source::Made;
+                }
+            },
             Source::Made => {}
         }
         if self.source == Source::Made {
@@ -188,7 +206,7 @@ fn choose_path(renderer: &GpuRenderer, plan: &Plan) -> Result<Path, GpuError> {
         GpuPath::Compute if needs_fan => Err(GpuError::NeedsTriangles { integration: plan.integration }),
         GpuPath::Compute => Ok(Path::Compute),
         GpuPath::Triangles => {
-            let best = TargetBits::ThirtyTwo;
+            let best = best_target(&renderer.gpu);
             match plan.gpu.target_bits {
                 Some(bits) if bits > best => Err(GpuError::TargetNotBlended {
                     bits: bits.bits(),

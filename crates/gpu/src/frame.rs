@@ -12,8 +12,9 @@ use crate::kernel::Named;
 use crate::kernels::Variant;
 use crate::mesh::MeshPart;
 use crate::part::picture_bytes;
-use crate::sorting::{HELD_IN_LAYERS, InPixels, Source};
+use crate::sorting::{DeviceOrder, HELD_IN_LAYERS, InPixels, Source};
 use crate::stopwatch::Laps;
+use crate::triangles::BlockToDraw;
 use crate::view::{Part, frame_of};
 
 impl Drawing<'_> {
@@ -57,7 +58,10 @@ impl Drawing<'_> {
                     self.bin(&mut encoder, &mut laps, &memory, &resources, sort)?;
                     self.rasterize(&mut encoder, &mut laps, means, &resources, sort, frame.tiles)?;
                 }
-                Path::Triangles(_) => {}
+                Path::Triangles(_) => {
+                    let is_ends = [number == 0, number + 1 == blocks.len()];
+                    self.draw_triangles(&mut encoder, &mut laps, &memory, &resources, part, is_ends)?;
+                }
             }
         }
         self.read(memory, encoder, laps, part)
@@ -107,16 +111,14 @@ impl Drawing<'_> {
             cull.run(&mut pass, &cull.bind(gpu, &with_part(resources, part)), groups);
         }
         memory.order.compact.record(&mut pass);
-        let Some(sort) = &memory.order.sort else { return Ok(()) };
-        match self.source {
-            Source::Centroids => {
-                let keys = renderer.kernels.get(gpu, "order/centroid_keys.wgsl", "centroid_keys", &Variant::default())?;
-                for part in &mesh.parts {
-                    keys.run(&mut pass, &keys.bind(gpu, &with_part(resources, part)), groups);
-                }
-                sort.record(&mut pass, u32::BITS);
+        match (&memory.order.sorter, self.power) {
+            (Some(DeviceOrder::Centroids(centroids)), _) if self.source == Source::Centroids => {
+                centroids.record(&mut pass);
             }
-            Source::AsTheyCome | Source::Made => {}
+            (Some(DeviceOrder::Power(power)), Some(view)) if self.source == Source::Power => {
+                power.record(gpu, &mut pass, &view);
+            }
+            _ => {}
         }
         Ok(())
     }
@@ -176,6 +178,31 @@ impl Drawing<'_> {
             let kernel = renderer.kernels.get(gpu, variant.0, "draw", &variant.1)?;
             kernel.run(&mut pass, &kernel.bind(gpu, resources), tiles[0] * tiles[1]);
         }
+        Ok(())
+    }
+
+    /// Fans of triangles, blended by hardware.
+    ///
+    /// - `is_ends`: whether the block is the first and the last that is drawn
+    fn draw_triangles(
+        &self,
+        encoder: &mut CommandEncoder,
+        laps: &mut Laps<'_>,
+        memory: &Memory<'_>,
+        resources: &[Named<'_>],
+        part: Part,
+        [is_first, is_last]: [bool; 2],
+    ) -> Result<(), GpuError> {
+        {
+            let mut pass = begin(encoder, laps, Stage::SetUp);
+            self.gather(&mut pass, memory, resources)?;
+        }
+        let gpu = &self.renderer.gpu;
+        let Some(triangles) = memory.triangles else {
+            return Err(GpuError::defect(gpu, "triangles were not prepared"));
+        };
+        let block = BlockToDraw { cells: memory.plan.cells, is_first, is_last, extent: part.extent };
+        triangles.path.record(gpu, encoder, laps, resources, &triangles.target, block);
         Ok(())
     }
 

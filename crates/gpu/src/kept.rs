@@ -3,8 +3,9 @@
 use std::sync::Arc;
 
 use tetrascope_order::OrderMethod;
-use tetrascope_scene::{BufferRole, Plan};
+use tetrascope_scene::{BufferRole, Plan, TargetBits};
 use tetrascope_shaders::layout::{Block, Frame, TILE_SIDE};
+use tetrascope_view::View;
 use wgpu::{Buffer, BufferUsages};
 
 use crate::bins::{Bins, BinsKernels, BinsSize};
@@ -12,12 +13,16 @@ use crate::compact::Compact;
 use crate::draw::{Drawing, Means, Path};
 use crate::effects::{Effects, ScalarUnit, point_gradients};
 use crate::kernel::Named;
+use crate::kernels::Variant;
+use crate::keys::{CentroidOrder, KeysKernels, PowerOrder, SortedOrder};
 use crate::lookups::{FieldUnits, Lookups};
 use crate::mesh::MeshBuffers;
-use crate::radix::{RadixLists, RadixSort};
+use crate::power_functions::{NotResolved, PowerFrame, PowerFunctions};
 use crate::renderer::GpuRenderer;
 use crate::scan::{ListKernels, words};
-use crate::sorting::{InPixels, MadeOrder, Source};
+use crate::sorting::{DeviceOrder, InPixels, MadeOrder, Source};
+use crate::targets::Target;
+use crate::triangles::{Interpolated, TrianglePath};
 use crate::view::Part;
 use crate::work::{BlockPlan, Work};
 use crate::{Gpu, GpuError};
@@ -37,7 +42,10 @@ pub(crate) struct Kept {
     effects: Option<Arc<Effects>>,
     gradients: Option<Buffer>,
     made: Option<MadeOrder>,
+    /// Functions of the power order, or why the device cannot sort by them; once asked for.
+    power: Option<Result<PowerFunctions, NotResolved>>,
     order: Option<OrderMemory>,
+    triangles: Option<TriangleMemory>,
     /// How the order is cut, and whether all cells must be together.
     plan: Option<(BlockPlan, bool)>,
     work: Option<Work>,
@@ -55,6 +63,16 @@ pub(crate) struct TileMemory {
     pub(crate) bins: Bins,
 }
 
+/// Pipelines of the triangle path, and the target that they draw into.
+#[derive(Debug)]
+pub(crate) struct TriangleMemory {
+    interpolated: Interpolated,
+    variant: Variant,
+    cells: u32,
+    pub(crate) path: TrianglePath,
+    pub(crate) target: Target,
+}
+
 /// What a frame works on.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Memory<'a> {
@@ -64,6 +82,7 @@ pub(crate) struct Memory<'a> {
     pub(crate) order: &'a OrderMemory,
     pub(crate) work: &'a Work,
     pub(crate) tiles: Option<&'a TileMemory>,
+    pub(crate) triangles: Option<&'a TriangleMemory>,
     permutation: Option<&'a Buffer>,
 }
 
@@ -76,7 +95,6 @@ impl<'a> Memory<'a> {
             ("block", order.block.as_entire_binding()),
             ("totals", order.totals.as_entire_binding()),
             ("kept", order.kept.as_entire_binding()),
-            ("keys", order.kept.as_entire_binding()),
             ("order", order.order.as_entire_binding()),
             ("vertices", mesh.vertices.as_entire_binding()),
             ("points", mesh.points.as_entire_binding()),
@@ -140,12 +158,12 @@ pub(crate) struct OrderMemory {
     pub(crate) frame: Buffer,
     pub(crate) block: Buffer,
     pub(crate) totals: Buffer,
-    /// What becomes of each candidate; once the order is there, its keys.
+    /// What becomes of each candidate.
     pub(crate) kept: Buffer,
     pub(crate) order: Buffer,
     pub(crate) compact: Compact,
-    /// Where the device sorts.
-    pub(crate) sort: Option<RadixSort>,
+    /// Where the device sorts: the last one that did.
+    pub(crate) sorter: Option<DeviceOrder>,
 }
 
 impl OrderMemory {
@@ -164,23 +182,55 @@ impl OrderMemory {
             kept,
             order,
             compact,
-            sort: None,
+            sorter: None,
         })
     }
 
-    /// Makes room for sorting.
-    fn sorts(&mut self, gpu: &Gpu, mesh: &MeshBuffers) -> Result<(), GpuError> {
-        if self.sort.is_none() {
-            let lists = RadixLists { keys: &self.kept, order: &self.order, totals: &self.totals, count_at: 0 };
-            self.sort = Some(RadixSort::new(gpu, &self.lists, lists, mesh.cell_count)?);
+    /// Makes ready what the device sorts by.
+    ///
+    /// - `power`: the functions of the mesh, for that order
+    fn sort_by(
+        &mut self,
+        gpu: &Gpu,
+        mesh: &MeshBuffers,
+        source: Source,
+        power: Option<&PowerFunctions>,
+    ) -> Result<(), GpuError> {
+        let is_there = match (&self.sorter, source) {
+            (_, Source::AsTheyCome | Source::Made)
+            | (Some(DeviceOrder::Centroids(_)), Source::Centroids)
+            | (Some(DeviceOrder::Power(_)), Source::Power) => true,
+            _ => false,
+        };
+        let [part] = mesh.parts.as_slice() else { return Ok(()) };
+        if is_there {
+            return Ok(());
         }
+        // Two at a time would take twice the memory.
+        self.sorter = None;
+        let kernels = KeysKernels::new(gpu)?;
+        let sorted = SortedOrder { order: &self.order, totals: &self.totals, most: mesh.cell_count };
+        self.sorter = match power {
+            Some(functions) if source == Source::Power => {
+                Some(DeviceOrder::Power(PowerOrder::new(gpu, &self.lists, &kernels, sorted, functions)?))
+            }
+            _ => {
+                let resources = [
+                    ("frame", self.frame.as_entire_binding()),
+                    ("points", mesh.points.as_entire_binding()),
+                    ("cells", part.cells.as_entire_binding()),
+                ];
+                let order = CentroidOrder::new(gpu, &self.lists, &kernels, sorted, &resources)?;
+                Some(DeviceOrder::Centroids(order))
+            }
+        };
         Ok(())
     }
 
     /// Bytes on the device.
     pub(crate) fn bytes(&self) -> u64 {
-        let sort = self.sort.as_ref().map_or(0, RadixSort::bytes);
-        self.kept.size() + self.order.size() + self.compact.bytes() + sort
+        let sorter = self.sorter.as_ref().map_or(0, DeviceOrder::bytes);
+        self.kept.size() + self.order.size() + self.compact.bytes() + sorter
     }
 }
 
@@ -242,7 +292,7 @@ impl Kept {
     }
 
     /// The permutation of a method that the CPU sorts by; sorted and uploaded only when the view changed.
-    pub(crate) fn made(&mut self, renderer: &GpuRenderer, method: OrderMethod, view: &tetrascope_view::View) -> &MadeOrder {
+    pub(crate) fn made(&mut self, renderer: &GpuRenderer, method: OrderMethod, view: &View) -> &MadeOrder {
         let (gpu, cells, viewpoint) = (&renderer.gpu, renderer.cells(), view.viewpoint());
         match self.made.take().filter(|made| made.is_by(method)) {
             Some(mut made) => {
@@ -268,7 +318,7 @@ impl Kept {
         let (gpu, mesh) = (&renderer.gpu, &renderer.mesh);
         let limit = gpu.largest_binding();
         let whole = sort != InPixels::Nothing;
-        self.order(renderer, drawing.source == Source::Centroids)?;
+        self.order(renderer, drawing.source)?;
         let plan = match self.plan {
             Some((plan, was_whole)) if was_whole == whole => plan,
             _ => BlockPlan::new(mesh.cell_count, whole, limit),
@@ -297,7 +347,14 @@ impl Kept {
                     self.tiles = Some(TileMemory::new(gpu, order, work, &mesh.points, size)?);
                 }
             }
-            Path::Triangles(_) => {}
+            Path::Triangles(bits) => {
+                let fits = |memory: &TriangleMemory| memory.fits(drawing.plan, &means.variant, bits, plan.cells, part);
+                if !self.triangles.as_ref().is_some_and(fits) {
+                    self.triangles = None;
+                    let memory = TriangleMemory::new(gpu, drawing.plan, &means.variant, bits, plan.cells, part)?;
+                    self.triangles = Some(memory);
+                }
+            }
         }
         Ok(())
     }
@@ -316,6 +373,10 @@ impl Kept {
         }
         if let Some(tiles) = &self.tiles {
             all.push((BufferRole::Frame, "tiles", tiles.bytes()));
+        }
+        if let Some(triangles) = &self.triangles {
+            all.push((BufferRole::Frame, "fans", triangles.path.bytes()));
+            all.push((BufferRole::Frame, "target", triangles.target.bytes()));
         }
         all
     }
@@ -345,20 +406,58 @@ impl Kept {
             order: self.order.as_ref()?,
             work: self.work.as_ref()?,
             tiles: self.tiles.as_ref(),
+            triangles: self.triangles.as_ref(),
             permutation: self.made.as_ref().map(|made| &made.permutation),
         })
     }
 
-    /// Memory of the order.
-    fn order(&mut self, renderer: &GpuRenderer, sorts: bool) -> Result<&OrderMemory, GpuError> {
-        let (gpu, mesh) = (&renderer.gpu, &renderer.mesh);
-        let mut order = match self.order.take() {
-            Some(order) => order,
-            None => OrderMemory::new(gpu, mesh)?,
-        };
-        if sorts {
-            order.sorts(gpu, mesh)?;
+    /// What a frame in the power order sorts by on the device, or why it cannot.
+    pub(crate) fn power_frame(&mut self, renderer: &GpuRenderer, view: &View) -> Result<PowerFrame, NotResolved> {
+        let functions = self.power.get_or_insert_with(|| {
+            let (visibility, cells) = (&renderer.visibility, renderer.cells());
+            PowerFunctions::new(visibility.power(cells), cells, visibility.adjacency(cells))
+        });
+        match functions {
+            Ok(functions) => functions.view(view.viewpoint()).ok_or(NotResolved::OutOfRange),
+            Err(reason) => Err(*reason),
         }
-        Ok(self.order.insert(order))
+    }
+
+    /// Memory of the order.
+    fn order(&mut self, renderer: &GpuRenderer, source: Source) -> Result<(), GpuError> {
+        let (gpu, mesh) = (&renderer.gpu, &renderer.mesh);
+        let order = match &mut self.order {
+            Some(order) => order,
+            None => self.order.insert(OrderMemory::new(gpu, mesh)?),
+        };
+        let power = self.power.as_ref().and_then(|functions| functions.as_ref().ok());
+        order.sort_by(gpu, mesh, source, power)
+    }
+}
+
+impl TriangleMemory {
+    fn new(
+        gpu: &Gpu,
+        plan: &Plan,
+        variant: &Variant,
+        bits: TargetBits,
+        cells: u32,
+        part: Part,
+    ) -> Result<Self, GpuError> {
+        let interpolated = if plan.integration.needs_fan() { Interpolated::Light } else { Interpolated::Rays };
+        let path = TrianglePath::new(gpu, interpolated, &variant.slots, &variant.constants, bits, cells)?;
+        let target = Target::new(gpu, part.extent, bits);
+        Ok(Self { interpolated, variant: variant.clone(), cells, path, target })
+    }
+
+    /// Whether it is what a plan asks for, with room enough.
+    fn fits(&self, plan: &Plan, variant: &Variant, bits: TargetBits, cells: u32, part: Part) -> bool {
+        let [width, height] = self.target.size();
+        plan.integration.needs_fan() == (self.interpolated == Interpolated::Light)
+            && self.variant == *variant
+            && self.target.precision == bits
+            && self.cells >= cells
+            && width >= part.extent[0]
+            && height >= part.extent[1]
     }
 }

@@ -9,6 +9,7 @@ use tetrascope_view::Viewpoint;
 use wgpu::Buffer;
 
 use crate::Gpu;
+use crate::keys::{CentroidOrder, PowerOrder};
 
 /// Who sorts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -17,6 +18,8 @@ pub(crate) enum Source {
     AsTheyCome,
     /// The device, by centroids.
     Centroids,
+    /// The device, by one proven key a cell.
+    Power,
     /// The CPU; the permutation is uploaded when it changed.
     Made,
 }
@@ -27,6 +30,7 @@ impl Source {
         match method {
             OrderMethod::None | OrderMethod::PerPixel => Self::AsTheyCome,
             OrderMethod::Centroid | OrderMethod::KBuffer { .. } => Self::Centroids,
+            OrderMethod::Power => Self::Power,
             _ => Self::Made,
         }
     }
@@ -120,5 +124,22 @@ impl MadeOrder {
         self.guarantee = order.guarantee;
         self.rings = order.cycles.len() as u64;
         self.cyclic = order.cycles.iter().map(|ring| ring.len() as u64).sum();
+    }
+}
+
+/// What the device sorts by.
+#[derive(Debug)]
+pub(crate) enum DeviceOrder {
+    Centroids(CentroidOrder),
+    Power(PowerOrder),
+}
+
+impl DeviceOrder {
+    /// Bytes on the device beside the order.
+    pub(crate) fn bytes(&self) -> u64 {
+        match self {
+            Self::Centroids(order) => order.bytes(),
+            Self::Power(order) => order.bytes(),
+        }
     }
 }

@@ -1,51 +1,34 @@
 //! What hardware blends into, and pictures for display.
 
+use tetrascope_scene::TargetBits;
 use tetrascope_shaders::{Binding, Program};
-use wgpu::{CommandEncoder, Features, RenderPipeline, TextureFormat, TextureUsages, TextureView};
+use wgpu::{CommandEncoder, Features, RenderPassTimestampWrites, RenderPipeline, TextureFormat, TextureUsages, TextureView};
 
 use crate::kernel::{Named, bind};
 use crate::{Gpu, GpuError};
 
-/// Floats of the target that hardware blends triangles into.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum TargetPrecision {
-    /// 32 bits a channel: what is blended agrees with the compute path. Not every adapter can.
-    ThirtyTwo,
-    /// 16 bits a channel: every adapter can. Each draw block rounds on its own and is summed up in 32 bits.
-    Sixteen,
+/// The most precise target that a device blends into.
+pub(crate) fn best_target(gpu: &Gpu) -> TargetBits {
+    if blends(gpu, TargetBits::ThirtyTwo) { TargetBits::ThirtyTwo } else { TargetBits::Sixteen }
 }
 
-impl TargetPrecision {
-    /// The most precise that a device blends.
-    pub fn best(gpu: &Gpu) -> Self {
-        if Self::ThirtyTwo.is_supported(gpu) { Self::ThirtyTwo } else { Self::Sixteen }
-    }
+/// Whether a device blends into a target: 16 bits every one does.
+pub(crate) fn blends(gpu: &Gpu, bits: TargetBits) -> bool {
+    bits == TargetBits::Sixteen || gpu.device.features().contains(Features::FLOAT32_BLENDABLE)
+}
 
-    /// Whether a device blends into it.
-    pub fn is_supported(self, gpu: &Gpu) -> bool {
-        self == Self::Sixteen || gpu.device.features().contains(Features::FLOAT32_BLENDABLE)
+pub(crate) fn format_of(bits: TargetBits) -> TextureFormat {
+    match bits {
+        TargetBits::ThirtyTwo => TextureFormat::Rgba32Float,
+        TargetBits::Sixteen => TextureFormat::Rgba16Float,
     }
+}
 
-    pub(crate) fn format(self) -> TextureFormat {
-        match self {
-            Self::ThirtyTwo => TextureFormat::Rgba32Float,
-            Self::Sixteen => TextureFormat::Rgba16Float,
-        }
-    }
-
-    /// The brightest light that one cell may add: 16-bit floats end at 65504, and their infinity would darken what comes before it.
-    pub(crate) fn most_light(self) -> f32 {
-        match self {
-            Self::ThirtyTwo => f32::MAX,
-            Self::Sixteen => 60_000.0,
-        }
-    }
-
-    fn bytes_per_pixel(self) -> u64 {
-        match self {
-            Self::ThirtyTwo => 16,
-            Self::Sixteen => 8,
-        }
+/// The brightest light that one cell may add: 16-bit floats end at 65504, and their infinity would darken what comes before it.
+pub(crate) fn most_light(bits: TargetBits) -> f32 {
+    match bits {
+        TargetBits::ThirtyTwo => f32::MAX,
+        TargetBits::Sixteen => 60_000.0,
     }
 }
 
@@ -53,16 +36,16 @@ impl TargetPrecision {
 #[derive(Debug)]
 pub(crate) struct Target {
     pub(crate) view: TextureView,
-    pub(crate) precision: TargetPrecision,
+    pub(crate) precision: TargetBits,
     size: [u32; 2],
 }
 
 impl Target {
     /// A target for pictures up to a size, or parts of them.
-    pub(crate) fn new(gpu: &Gpu, size: [u32; 2], precision: TargetPrecision) -> Self {
+    pub(crate) fn new(gpu: &Gpu, size: [u32; 2], precision: TargetBits) -> Self {
         let size = size.map(|side| side.max(1));
         let usage = TextureUsages::RENDER_ATTACHMENT | TextureUsages::TEXTURE_BINDING;
-        let view = texture(gpu, "triangles", size, precision.format(), usage).create_view(&Default::default());
+        let view = texture(gpu, "triangles", size, format_of(precision), usage).create_view(&Default::default());
         Self { view, precision, size }
     }
 
@@ -73,7 +56,7 @@ impl Target {
 
     /// Memory that it takes.
     pub(crate) fn bytes(&self) -> u64 {
-        u64::from(self.size[0]) * u64::from(self.size[1]) * self.precision.bytes_per_pixel()
+        u64::from(self.size[0]) * u64::from(self.size[1]) * u64::from(self.precision.bits() / 2)
     }
 }
 
@@ -158,6 +141,7 @@ impl Drawing {
         encoder: &'a mut CommandEncoder,
         view: &TextureView,
         clear: bool,
+        timestamp_writes: Option<RenderPassTimestampWrites<'_>>,
     ) -> wgpu::RenderPass<'a> {
         let load = if clear { wgpu::LoadOp::Clear(wgpu::Color::TRANSPARENT) } else { wgpu::LoadOp::Load };
         encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
@@ -189,7 +173,7 @@ impl Display {
     /// - `resources`: `frame`, `picture`, and `background`, a uniform of linear light
     pub(crate) fn record(&self, gpu: &Gpu, encoder: &mut CommandEncoder, resources: &[Named<'_>], view: &TextureView) {
         let group = self.0.bind(gpu, resources);
-        let mut pass = self.0.pass(encoder, view, true);
+        let mut pass = self.0.pass(encoder, view, true, None);
         pass.set_pipeline(&self.0.pipeline);
         pass.set_bind_group(0, &group, &[]);
         pass.draw(0..3, 0..1);

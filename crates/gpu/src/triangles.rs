@@ -1,11 +1,13 @@
 //! The triangle path: cells are classified in a compute pass, and their fans blended by hardware, back to front.
 
+use tetrascope_scene::{Stage, TargetBits};
 use tetrascope_shaders::layout::{GROUP, TILE_SIDE};
 use tetrascope_shaders::{Constant, Program, Slot};
 use wgpu::{BlendComponent, BlendFactor, BlendOperation, BlendState, Buffer, BufferUsages, CommandEncoder};
 
 use crate::kernel::{Kernel, Named};
-use crate::targets::{Drawing, Target, TargetPrecision};
+use crate::stopwatch::Laps;
+use crate::targets::{Drawing, Target, format_of, most_light};
 use crate::{Gpu, GpuError};
 
 /// Bytes of a fan's record.
@@ -52,7 +54,7 @@ pub(crate) struct TrianglePath {
     empty: Kernel,
     accumulate: Kernel,
     drawing: Drawing,
-    precision: TargetPrecision,
+    precision: TargetBits,
     fans: Buffer,
     arguments: Buffer,
     capacity: u32,
@@ -83,7 +85,7 @@ impl TrianglePath {
         interpolated: Interpolated,
         slots: &[Slot<'_>],
         constants: &[(&str, Constant)],
-        precision: TargetPrecision,
+        precision: TargetBits,
         capacity: u32,
     ) -> Result<Self, GpuError> {
         let (needed, limit) = (u64::from(capacity) * FAN_BYTES, gpu.largest_binding());
@@ -92,7 +94,7 @@ impl TrianglePath {
             return Err(GpuError::TooLarge { what: "a block of fans", needed, limit, adapter });
         }
         let mut constants = constants.to_vec();
-        constants.push(("MOST_LIGHT", Constant::F32(precision.most_light())));
+        constants.push(("MOST_LIGHT", Constant::F32(most_light(precision))));
         constants.push(("NEAR_SHARE", Constant::F32(interpolated.near_share())));
         let mut slots = slots.to_vec();
         slots.extend([("triangle", interpolated.file()), ("pieces", "integrate/pieces.wgsl")]);
@@ -104,7 +106,7 @@ impl TrianglePath {
             fans_kernel: Kernel::new(gpu, &fans, "fans_of_block"),
             empty: Kernel::new(gpu, &accumulate, "empty"),
             accumulate: Kernel::new(gpu, &accumulate, "accumulate"),
-            drawing: Drawing::new(gpu, &draw, ["vertex", "fragment"], precision.format(), Some(blend)),
+            drawing: Drawing::new(gpu, &draw, ["vertex", "fragment"], format_of(precision), Some(blend)),
             precision,
             fans: gpu.storage("fans", needed),
             arguments: gpu.buffer(
@@ -126,6 +128,7 @@ impl TrianglePath {
         &self,
         gpu: &Gpu,
         encoder: &mut CommandEncoder,
+        laps: &mut Laps<'_>,
         resources: &[Named<'_>],
         target: &Target,
         block: BlockToDraw,
@@ -147,10 +150,10 @@ impl TrianglePath {
         if block.is_first {
             self.over_pixels(encoder, &self.empty, &self.empty.bind(gpu, &all), block.extent);
         }
-        let sums_up = self.precision == TargetPrecision::Sixteen;
+        let sums_up = self.precision == TargetBits::Sixteen;
         {
             let group = self.drawing.bind(gpu, &all);
-            let mut pass = self.drawing.pass(encoder, &target.view, block.is_first || sums_up);
+            let mut pass = self.drawing.pass(encoder, &target.view, block.is_first || sums_up, laps.render(Stage::Rasterize));
             pass.set_viewport(0.0, 0.0, width as f32, height as f32, 0.0, 1.0);
             pass.set_scissor_rect(0, 0, width, height);
             pass.set_pipeline(&self.drawing.pipeline);

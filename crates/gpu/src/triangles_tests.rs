@@ -10,7 +10,10 @@ use tetrascope_view::View;
 
 use crate::Gpu;
 use crate::kernel::Kernel;
-use crate::targets::{Display, Target, TargetPrecision, texture};
+use tetrascope_scene::TargetBits;
+
+use crate::stopwatch::Laps;
+use crate::targets::{Display, Target, best_target, texture};
 use crate::testing::{checked, contents, gpu};
 use crate::triangles::{BlockToDraw, Interpolated, TrianglePath};
 use crate::view::{Part, frame_of};
@@ -204,7 +207,7 @@ impl Uploaded {
 }
 
 /// A picture of a scene in blocks of `cells` cells, back to front.
-fn draw(gpu: &Gpu, scene: &Scene, interpolated: Interpolated, precision: TargetPrecision, cells: u32) -> Vec<[f32; 4]> {
+fn draw(gpu: &Gpu, scene: &Scene, interpolated: Interpolated, precision: TargetBits, cells: u32) -> Vec<[f32; 4]> {
     checked(gpu, || {
         let path = TrianglePath::new(gpu, interpolated, SLOTS, &[], precision, cells).unwrap();
         let target = Target::new(gpu, [SIZE; 2], precision);
@@ -439,7 +442,7 @@ fn fans_of_degenerate_cells() {
 
 fn check_pictures(scene: &Scene, what: &str) {
     let Some(gpu) = gpu() else { return };
-    for (precision, tolerance) in [(TargetPrecision::ThirtyTwo, 3e-4), (TargetPrecision::Sixteen, 1e-2)] {
+    for (precision, tolerance) in [(TargetBits::ThirtyTwo, 3e-4), (TargetBits::Sixteen, 1e-2)] {
         if !precision.is_supported(&gpu) {
             println!("skipped: 32-bit blending");
             continue;
@@ -475,9 +478,9 @@ fn pictures_of_many_layers_agree_with_rays() {
         scene.add(corners, scalars);
     }
     for (precision, cells, tolerance) in [
-        (TargetPrecision::ThirtyTwo, 500, 3e-4),
-        (TargetPrecision::Sixteen, 500, 1e-2),
-        (TargetPrecision::Sixteen, 64, 1e-2),
+        (TargetBits::ThirtyTwo, 500, 3e-4),
+        (TargetBits::Sixteen, 500, 1e-2),
+        (TargetBits::Sixteen, 64, 1e-2),
     ] {
         if precision.is_supported(&gpu) {
             let worst = worst(&scene, &draw(&gpu, &scene, Interpolated::Rays, precision, cells));
@@ -556,7 +559,7 @@ fn pictures_from_inside_of_a_cell_agree_with_rays() {
 fn color_at_the_thick_vertex_is_interpolated() {
     let Some(gpu) = gpu() else { return };
     let scene = layers(DVec3::new(0.02, 0.03, -1.0), 0.01, true, -0.8, 0.2, 1);
-    let precision = TargetPrecision::best(&gpu);
+    let precision = best_target(&gpu);
     let picture = draw(&gpu, &scene, Interpolated::Light, precision, 10);
     let (projected, order) = scene.project(scene.cells[0]);
     let thick = projected.thick.unwrap();
@@ -569,7 +572,7 @@ fn color_at_the_thick_vertex_is_interpolated() {
     let opacity = 1.0 - (-mean * thick.chord_length).exp();
     let [f, b] = [color(thick.scalar_front), color(thick.scalar_back)];
     let peak = [0, 1, 2].map(|c| 0.5 * (f[c] + b[c]));
-    let tolerance = if precision == TargetPrecision::ThirtyTwo { 3e-4 } else { 1e-2 };
+    let tolerance = if precision == TargetBits::ThirtyTwo { 3e-4 } else { 1e-2 };
     let mut covered = 0;
     for (place, found) in picture.iter().enumerate() {
         let at = DVec2::new((place as u32 % SIZE) as f64, (place as u32 / SIZE) as f64) + 0.5 - f64::from(SIZE) / 2.0;

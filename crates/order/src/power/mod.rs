@@ -137,6 +137,17 @@ impl Power {
         self
     }
 
+    /// How far the order can be trusted.
+    pub fn guarantee(&self) -> Guarantee {
+        if self.certificate.is_exact_across_gaps() {
+            Guarantee::Exact
+        } else if self.certificate.is_exact() {
+            Guarantee::Faces
+        } else {
+            Guarantee::Approximate
+        }
+    }
+
     /// What is proven about this order.
     pub fn certificate(&self) -> PowerCertificate {
         self.certificate
