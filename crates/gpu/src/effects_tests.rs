@@ -47,6 +47,11 @@ fn drawn(gpu: &Gpu, scene: &Scene, effects: &Effects, carries_joints: bool) -> V
     })
 }
 
+/// The larger of two errors; what is not a number is the largest.
+fn larger(worst: f64, error: f64) -> f64 {
+    if error.is_nan() { f64::INFINITY } else { worst.max(error.abs()) }
+}
+
 /// Draws random cells as a plan says, and gives the largest difference from the formulas.
 fn compare(gpu: &Gpu, plan: &Plan, seed: u64, name: &str) -> f64 {
     let mut worst = 0.0_f64;
@@ -61,11 +66,7 @@ fn compare(gpu: &Gpu, plan: &Plan, seed: u64, name: &str) -> f64 {
             all_crossings += crossings;
             let [r, g, b] = known.rgb;
             for (channel, known) in light.into_iter().zip([r, g, b, 1.0 - known.opacity]) {
-                let error = (f64::from(channel) - known).abs();
-                // Also if it is not a number.
-                if !(error <= worst) {
-                    worst = if error.is_nan() { f64::INFINITY } else { error };
-                }
+                worst = larger(worst, f64::from(channel) - known);
             }
         }
         assert!(plan.isosurfaces.is_none() || all_crossings > 1000, "{all_crossings}");
@@ -138,7 +139,7 @@ fn thin_cells_keep_their_normals() {
         let mut worst = 0.0_f64;
         for (ray, (light, _)) in drawn(&gpu, &scene, &effects, true).into_iter().enumerate() {
             let known = twin.ray(scene.rays[ray]).0;
-            worst = (0..3).fold(worst, |worst, c| worst.max((f64::from(light[c]) - known.rgb[c]).abs()));
+            worst = (0..3).fold(worst, |worst, c| larger(worst, f64::from(light[c]) - known.rgb[c]));
         }
         println!("flat, cells {thickness} thick: {worst:.1e}");
         assert!(worst < if thickness < 5e-5 { 1e-4 } else { 1e-6 }, "{worst} in cells {thickness} thick");
@@ -264,6 +265,9 @@ fn cells_near_a_surface_may_show_it() {
     }
 }
 
+/// Shading of surfaces if there are any, how they are drawn, whether there is a light and it falls on the volume; and what is bound.
+type Case = (Vec<[SurfaceShading; 2]>, IsosurfaceMethod, Option<bool>, &'static [&'static str]);
+
 /// A scene pays for what it uses and for nothing else.
 #[test]
 fn variants_bind_what_they_use() {
@@ -271,7 +275,7 @@ fn variants_bind_what_they_use() {
     use SurfaceShading as S;
     let map = |mixing| IsosurfaceMethod::Map { size: 2, mixing };
     let exact = IsosurfaceMethod::Exact;
-    let cases: [(Vec<[S; 2]>, _, Option<bool>, &[&str]); 9] = [
+    let cases: [Case; 9] = [
         (vec![], exact, None, &[]),
         (vec![], exact, Some(false), &[]),
         (vec![], exact, Some(true), &["frame", "points", "gradients", "lamp"]),

@@ -100,7 +100,7 @@ impl Scene {
             let g = DVec3::new(1.0, -2.0, 0.5) + dice.vector(1.0);
             self.gradients.push([g.x as f32, g.y as f32, g.z as f32, 0.0]);
         }
-        let vertices = [first, first + 1, first + 2 | 1 << 31, first + 3 | 1 << 31];
+        let vertices = [first, first + 1, (first + 2) | (1 << 31), (first + 3) | (1 << 31)];
         let corners = self.corners(vertices);
         let inside = corners.iter().zip([0.2, 0.3, 0.1, 0.4]).map(|(c, share)| *c * share).sum::<DVec3>() - EYE;
         let depth = if self.is_perspective { inside.z } else { 1.0 };
