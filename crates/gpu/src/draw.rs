@@ -14,9 +14,7 @@ use std::sync::Arc;
 use std::time::Duration;
 
 use tetrascope_order::{CycleRemedy, Guarantee};
-use tetrascope_scene::{
-    Counts, GpuPath, OrderReport, Plan, Progress, Rendered, Stage, Stopwatch, TargetBits,
-};
+use tetrascope_scene::{Counts, GpuPath, OrderReport, Plan, Progress, Rendered, Stage, Stopwatch, TargetBits};
 use tetrascope_view::{LinearImage, View};
 use wgpu::Buffer;
 
@@ -71,7 +69,12 @@ pub(crate) struct Means {
 
 /// A part of the picture that was drawn, or why it was not.
 pub(crate) enum Outcome {
-    Drawn { pixels: Vec<[f32; 4]>, tiles: Vec<[u32; 4]>, totals: [u32; TOTALS], stages: Vec<(Stage, Duration)> },
+    Drawn {
+        pixels: Vec<[f32; 4]>,
+        tiles: Vec<[u32; 4]>,
+        totals: [u32; TOTALS],
+        stages: Vec<(Stage, Duration)>,
+    },
     /// So many pairs of tiles and cells were needed.
     NoRoom(u64),
 }
@@ -81,11 +84,7 @@ impl<'a> Drawing<'a> {
     ///
     /// # Errors
     /// [`GpuError::Unsupported`] for what no device path draws.
-    pub(crate) fn new(
-        renderer: &'a GpuRenderer,
-        plan: &'a Plan,
-        progress: &'a dyn Progress,
-    ) -> Result<Self, GpuError> {
+    pub(crate) fn new(renderer: &'a GpuRenderer, plan: &'a Plan, progress: &'a dyn Progress) -> Result<Self, GpuError> {
         let path = choose_path(renderer, plan)?;
         if plan.cycles == CycleRemedy::Cut {
             return Err(GpuError::CannotCut);

@@ -180,6 +180,12 @@ impl Effects {
         EFFECT_CONSTANTS.iter().copied().chain(own).collect()
     }
 
+    /// Bytes on the device, but for `gradients`.
+    pub(crate) fn bytes(&self) -> u64 {
+        let maps = self.maps.as_ref().map(|maps| maps.buffer());
+        [self.surfaces.as_ref(), maps, self.lamp.as_ref()].into_iter().flatten().map(Buffer::size).sum()
+    }
+
     /// What they bind, but for `gradients`.
     pub(crate) fn resources(&self) -> Vec<Named<'_>> {
         let maps = self.maps.as_ref().map(|maps| maps.buffer());

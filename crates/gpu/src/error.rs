@@ -93,7 +93,9 @@ pub enum GpuError {
     )]
     TrianglesCannotSort,
     /// A pixel cannot hold back so many segments.
-    #[error("a \"k-buffer\" holds back up to {most} cells on a device, not {window}; use a smaller window, or \"per-pixel\"")]
+    #[error(
+        "a \"k-buffer\" holds back up to {most} cells on a device, not {window}; use a smaller window, or \"per-pixel\""
+    )]
     WindowTooLarge {
         /// The window asked for.
         window: u32,

@@ -32,7 +32,9 @@ impl Drawing<'_> {
         let renderer = self.renderer;
         let (gpu, mesh) = (&renderer.gpu, &renderer.mesh);
         kept.prepare(self, means, sort, part)?;
-        let Some(memory) = kept.memory() else { return Err(GpuError::defect(gpu, "memory that was prepared is not there")) };
+        let Some(memory) = kept.memory() else {
+            return Err(GpuError::defect(gpu, "memory that was prepared is not there"));
+        };
         let frame = frame_of(&self.view, part, self.plan.termination, mesh.cell_count, mesh.point_count);
         gpu.queue.write_buffer(&memory.order.frame, 0, bytemuck::bytes_of(&frame));
         let mut resources = memory.resources(mesh);
@@ -146,12 +148,7 @@ impl Drawing<'_> {
         Ok(())
     }
 
-    fn gather(
-        &self,
-        pass: &mut ComputePass<'_>,
-        memory: &Memory<'_>,
-        resources: &[Named<'_>],
-    ) -> Result<(), GpuError> {
+    fn gather(&self, pass: &mut ComputePass<'_>, memory: &Memory<'_>, resources: &[Named<'_>]) -> Result<(), GpuError> {
         let renderer = self.renderer;
         let gather = renderer.kernels.get(&renderer.gpu, "order/gather.wgsl", "gather", &Variant::default())?;
         for part in &renderer.mesh.parts {
@@ -272,8 +269,7 @@ pub(crate) fn rasterizers(means: &Means, sort: InPixels) -> Vec<(&'static str, V
 /// A compute pass of a stage.
 fn begin<'a>(encoder: &'a mut CommandEncoder, laps: &mut Laps<'_>, stage: Stage) -> ComputePass<'a> {
     let label = stage.to_string();
-    encoder
-        .begin_compute_pass(&ComputePassDescriptor { label: Some(&label), timestamp_writes: laps.compute(stage) })
+    encoder.begin_compute_pass(&ComputePassDescriptor { label: Some(&label), timestamp_writes: laps.compute(stage) })
 }
 
 /// What there is, with a part of the mesh.

@@ -280,8 +280,7 @@ impl Kept {
         if let Some(gradients) = &self.gradients {
             return Ok(gradients.clone());
         }
-        let gradients =
-            point_gradients(&renderer.gpu, &renderer.positions, &renderer.tetrahedra, &renderer.scalars)?;
+        let gradients = point_gradients(&renderer.gpu, &renderer.positions, &renderer.tetrahedra, &renderer.scalars)?;
         self.gradients = Some(gradients.clone());
         Ok(gradients)
     }

@@ -43,9 +43,9 @@ mod radix_tests;
 #[cfg(test)]
 mod scan_tests;
 #[cfg(test)]
-mod triangles_tests;
-#[cfg(test)]
 mod testing;
+#[cfg(test)]
+mod triangles_tests;
 
 pub use device::{AdapterChoice, AdapterDescription, Gpu, adapters};
 pub use error::GpuError;

@@ -39,12 +39,8 @@ impl MeshBuffers {
     /// [`GpuError::TooLarge`] if the points, or one number a cell, do not fit into one binding.
     pub(crate) fn new(gpu: &Gpu, lattice: &Lattice) -> Result<Self, GpuError> {
         let limit = gpu.largest_binding();
-        let too_large = |what, needed| GpuError::TooLarge {
-            what,
-            needed,
-            limit,
-            adapter: gpu.description().name.clone(),
-        };
+        let too_large =
+            |what, needed| GpuError::TooLarge { what, needed, limit, adapter: gpu.description().name.clone() };
         let (points, cells) = (lattice.vertices.len() as u64, lattice.cells.len() as u64);
         if points * BYTES_PER_POINT > limit {
             return Err(too_large("the mesh's points, of which every cell may be made,", points * BYTES_PER_POINT));
@@ -53,14 +49,15 @@ impl MeshBuffers {
             return Err(too_large("the order of the mesh's tetrahedra", cells * 4));
         }
         let most = (limit / 16) as usize;
-        let parts = lattice.cells.chunks(most).zip(lattice.ranges.chunks(most)).enumerate().map(|(part, (cells, ranges))| {
-            MeshPart {
-                cells: gpu.storage_of("cells", cells),
-                ranges: gpu.storage_of("ranges", ranges),
-                chunk: gpu.uniform_of("chunk", &[(part * most) as u32, cells.len() as u32, 0, 0]),
-                count: cells.len() as u32,
-            }
-        });
+        let parts =
+            lattice.cells.chunks(most).zip(lattice.ranges.chunks(most)).enumerate().map(|(part, (cells, ranges))| {
+                MeshPart {
+                    cells: gpu.storage_of("cells", cells),
+                    ranges: gpu.storage_of("ranges", ranges),
+                    chunk: gpu.uniform_of("chunk", &[(part * most) as u32, cells.len() as u32, 0, 0]),
+                    count: cells.len() as u32,
+                }
+            });
         Ok(Self {
             vertices: gpu.storage_of("vertices", &lattice.vertices),
             points: gpu.storage("points", points * BYTES_PER_POINT),

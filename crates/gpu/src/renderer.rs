@@ -8,8 +8,8 @@ use tetrascope_order::{Cells, MeshVisibility};
 use tetrascope_scene::{Plan, Progress, Rendered, check_scalars};
 
 use crate::draw::Drawing;
-use crate::kernels::Kernels;
 use crate::kept::Kept;
+use crate::kernels::Kernels;
 use crate::lattice::{Lattice, bare};
 use crate::mesh::MeshBuffers;
 use crate::stopwatch::DeviceStopwatch;

@@ -39,11 +39,7 @@ impl DeviceStopwatch {
             ty: wgpu::QueryType::Timestamp,
             count: 2 * MOST,
         });
-        let resolved = gpu.buffer(
-            "stage times",
-            Self::BYTES,
-            BufferUsages::QUERY_RESOLVE | BufferUsages::COPY_SRC,
-        );
+        let resolved = gpu.buffer("stage times", Self::BYTES, BufferUsages::QUERY_RESOLVE | BufferUsages::COPY_SRC);
         Some(Self { queries, resolved, period_nanos: f64::from(gpu.queue.get_timestamp_period()) })
     }
 

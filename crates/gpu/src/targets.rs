@@ -2,7 +2,9 @@
 
 use tetrascope_scene::TargetBits;
 use tetrascope_shaders::{Binding, Program};
-use wgpu::{CommandEncoder, Features, RenderPassTimestampWrites, RenderPipeline, TextureFormat, TextureUsages, TextureView};
+use wgpu::{
+    CommandEncoder, Features, RenderPassTimestampWrites, RenderPipeline, TextureFormat, TextureUsages, TextureView,
+};
 
 use crate::kernel::{Named, bind};
 use crate::{Gpu, GpuError};
@@ -152,6 +154,7 @@ impl Drawing {
                 resolve_target: None,
                 ops: wgpu::Operations { load, store: wgpu::StoreOp::Store },
             })],
+            timestamp_writes,
             ..Default::default()
         })
     }

@@ -153,7 +153,8 @@ impl TrianglePath {
         let sums_up = self.precision == TargetBits::Sixteen;
         {
             let group = self.drawing.bind(gpu, &all);
-            let mut pass = self.drawing.pass(encoder, &target.view, block.is_first || sums_up, laps.render(Stage::Rasterize));
+            let mut pass =
+                self.drawing.pass(encoder, &target.view, block.is_first || sums_up, laps.render(Stage::Rasterize));
             pass.set_viewport(0.0, 0.0, width as f32, height as f32, 0.0, 1.0);
             pass.set_scissor_rect(0, 0, width, height);
             pass.set_pipeline(&self.drawing.pipeline);

@@ -13,7 +13,7 @@ use crate::kernel::Kernel;
 use tetrascope_scene::TargetBits;
 
 use crate::stopwatch::Laps;
-use crate::targets::{Display, Target, best_target, texture};
+use crate::targets::{Display, Target, best_target, blends, texture};
 use crate::testing::{checked, contents, gpu};
 use crate::triangles::{BlockToDraw, Interpolated, TrianglePath};
 use crate::view::{Part, frame_of};
@@ -225,7 +225,7 @@ fn draw(gpu: &Gpu, scene: &Scene, interpolated: Interpolated, precision: TargetB
             resources.push(("drawn", drawn.as_entire_binding()));
             let place =
                 BlockToDraw { cells, is_first: number + 1 == blocks, is_last: number == 0, extent: scene.part.extent };
-            path.record(gpu, &mut encoder, &resources, &target, place);
+            path.record(gpu, &mut encoder, &mut Laps::new(None), &resources, &target, place);
         }
         contents(gpu, encoder, &uploaded.picture, (SIZE * SIZE) as usize)
     })
@@ -443,7 +443,7 @@ fn fans_of_degenerate_cells() {
 fn check_pictures(scene: &Scene, what: &str) {
     let Some(gpu) = gpu() else { return };
     for (precision, tolerance) in [(TargetBits::ThirtyTwo, 3e-4), (TargetBits::Sixteen, 1e-2)] {
-        if !precision.is_supported(&gpu) {
+        if !blends(&gpu, precision) {
             println!("skipped: 32-bit blending");
             continue;
         }
@@ -477,12 +477,10 @@ fn pictures_of_many_layers_agree_with_rays() {
         }
         scene.add(corners, scalars);
     }
-    for (precision, cells, tolerance) in [
-        (TargetBits::ThirtyTwo, 500, 3e-4),
-        (TargetBits::Sixteen, 500, 1e-2),
-        (TargetBits::Sixteen, 64, 1e-2),
-    ] {
-        if precision.is_supported(&gpu) {
+    for (precision, cells, tolerance) in
+        [(TargetBits::ThirtyTwo, 500, 3e-4), (TargetBits::Sixteen, 500, 1e-2), (TargetBits::Sixteen, 64, 1e-2)]
+    {
+        if blends(&gpu, precision) {
             let worst = worst(&scene, &draw(&gpu, &scene, Interpolated::Rays, precision, cells));
             println!("{precision:?}, blocks of {cells}: {worst:e}");
             assert!(worst < tolerance, "{precision:?}: {worst}");

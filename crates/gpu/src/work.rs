@@ -68,11 +68,7 @@ impl Work {
         Self {
             drawn: gpu.storage("drawn", u64::from(cells) * BYTES_PER_CELL),
             picture: gpu.storage("picture", picture_bytes),
-            read_back: gpu.buffer(
-                "read-back",
-                picture_bytes + extra,
-                BufferUsages::MAP_READ | BufferUsages::COPY_DST,
-            ),
+            read_back: gpu.buffer("read-back", picture_bytes + extra, BufferUsages::MAP_READ | BufferUsages::COPY_DST),
             cells,
             picture_bytes,
         }

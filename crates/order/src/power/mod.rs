@@ -193,13 +193,7 @@ impl VisibilityOrder for Power {
     /// If `cells` is not the mesh that it was made for, in number.
     fn order(&self, cells: Cells<'_>, viewpoint: Viewpoint, drawn: &[CellId]) -> Order {
         assert_eq!(cells.tetrahedra.len(), self.keys.len(), "an order is made for one mesh");
-        let guarantee = if self.certificate.is_exact_across_gaps() {
-            Guarantee::Exact
-        } else if self.certificate.is_exact() {
-            Guarantee::Faces
-        } else {
-            Guarantee::Approximate
-        };
+        let guarantee = self.guarantee();
         let frame = Frame::new(self, viewpoint, drawn);
         // Faces tell neighbors apart; only what is proven across gaps needs more.
         let is_precise = guarantee == Guarantee::Exact;
