@@ -207,7 +207,7 @@ impl Uploaded {
 fn draw(gpu: &Gpu, scene: &Scene, interpolated: Interpolated, precision: TargetPrecision, cells: u32) -> Vec<[f32; 4]> {
     checked(gpu, || {
         let path = TrianglePath::new(gpu, interpolated, SLOTS, &[], precision, cells).unwrap();
-        let target = Target::new(gpu, [SIZE; 2], precision);
+        let target = Target::new(gpu, [SIZE; 2], precision).unwrap();
         let uploaded = Uploaded::new(gpu, scene);
         let mut encoder = gpu.encoder("test");
         let blocks = (scene.cells.len() as u32).div_ceil(cells);
