@@ -68,11 +68,9 @@ fn vertices_at(place: u32) -> vec4<u32> {
     return vec4<u32>(entry.xy, entry.z & ~RING_BIT, entry.w);
 }
 
-const NO_OUTLINE: vec4<i32> = vec4<i32>(0, 0, -1, -1);
-
 // Finds the outline of the thread's cell, and leaves the cell to the group if it has many tiles; all threads know then.
 fn find_tiles(place: u32, count: u32, thread: u32) -> Tiles {
-    var outline = NO_OUTLINE;
+    var outline = vec4<i32>(0, 0, -1, -1);
     if (place < count) {
         outline = find_outline(vertices_at(place));
     }

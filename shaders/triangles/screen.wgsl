@@ -15,7 +15,7 @@ fn screen_place(point: vec4<i32>, beside: vec3<f32>) -> vec2<f32> {
     return from_ray / pixel;
 }
 
-// The position of a place for the rasterizer; all vertices are at one depth, since 1 / depth would take part in no interpolation here.
+// The position of a place for the rasterizer; w is 1, so that what is handed on is linear on the screen.
 fn position_of(place: vec2<f32>) -> vec4<f32> {
     let base = vec2<i32>(frame.columns.x, frame.rows.x) - vec2<i32>(frame.origin);
     let from_corner = vec2<f32>(base) + 0.5 + place;

@@ -27,7 +27,7 @@ use crate::part::{halves, parts};
 use crate::power_functions::PowerFrame;
 use crate::renderer::GpuRenderer;
 use crate::sorting::{InPixels, MOST_HELD, Source};
-use crate::targets::best_target;
+use crate::targets::{Target, best_target};
 use crate::view::Part;
 
 /// Places of `totals`: cells that are drawn, pairs that were needed, and what was left out.
@@ -138,7 +138,7 @@ impl<'a> Drawing<'a> {
             return Err(GpuError::TrianglesCannotSort);
         }
         let size = [self.plan.view.width, self.plan.view.height];
-        let mut waiting = parts(size, renderer.gpu.largest_binding());
+        let mut waiting = parts(size, renderer.gpu.largest_binding(), Target::largest_side(&renderer.gpu));
         waiting.reverse();
         let mut image = LinearImage::transparent(size[0], size[1]);
         let mut counts = Counts { cells: u64::from(renderer.mesh.cell_count), cyclic, ..Counts::default() };
@@ -180,7 +180,8 @@ impl<'a> Drawing<'a> {
         let report = |done, total| self.progress.report(Stage::Tabulate, done, total);
         let lookups = kept.lookups(renderer, plan, &report)?;
         watch.lap(Stage::Tabulate);
-        let mut slots = lookups.slots().to_vec();
+        let mut slots = vec![("pieces", "integrate/pieces.wgsl")];
+        slots.extend(lookups.slots());
         slots.extend(effects.slots());
         let constants = effects.constants(self.path == Path::Compute);
         Ok(Means { lookups, effects, gradients, variant: Variant { slots, constants } })

@@ -445,7 +445,7 @@ impl TriangleMemory {
     ) -> Result<Self, GpuError> {
         let interpolated = if plan.integration.needs_fan() { Interpolated::Light } else { Interpolated::Rays };
         let path = TrianglePath::new(gpu, interpolated, &variant.slots, &variant.constants, bits, cells)?;
-        let target = Target::new(gpu, part.extent, bits);
+        let target = Target::new(gpu, part.extent, bits)?;
         Ok(Self { interpolated, variant: variant.clone(), cells, path, target })
     }
 

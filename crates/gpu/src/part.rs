@@ -17,12 +17,15 @@ pub(crate) fn picture_bytes(part: Part) -> u64 {
 /// A picture of this size in as few parts as fit.
 ///
 /// - `limit`: bytes that one may take
-pub(crate) fn parts(size: [u32; 2], limit: u64) -> Vec<Part> {
+/// - `side`: pixels that a side may have; a tile's at least
+pub(crate) fn parts(size: [u32; 2], limit: u64, side: u32) -> Vec<Part> {
     let mut waiting = vec![Part { origin: [0, 0], extent: size }];
     let mut parts = Vec::new();
     while let Some(part) = waiting.pop() {
         match halves(part) {
-            Some(halves) if picture_bytes(part) > limit => waiting.extend(halves.into_iter().rev()),
+            Some(halves) if picture_bytes(part) > limit || part.extent.iter().any(|extent| *extent > side) => {
+                waiting.extend(halves.into_iter().rev())
+            }
             _ => parts.push(part),
         }
     }
@@ -52,9 +55,10 @@ mod tests {
     fn parts_cover_every_pixel_once() {
         for (size, limit) in [([70, 40], u64::MAX), ([70, 40], 9000), ([1, 1], 0), ([300, 17], 5000), ([33, 500], 0)] {
             let mut covered = vec![0; (size[0] * size[1]) as usize];
-            let parts = parts(size, limit);
+            let parts = parts(size, limit, 200);
             for part in &parts {
                 assert!(picture_bytes(*part) <= limit || halves(*part).is_none());
+                assert!(part.extent.iter().all(|extent| *extent <= 200));
                 for y in part.origin[1]..part.origin[1] + part.extent[1] {
                     for x in part.origin[0]..part.origin[0] + part.extent[0] {
                         covered[(y * size[0] + x) as usize] += 1;
@@ -63,6 +67,7 @@ mod tests {
             }
             assert!(covered.iter().all(|count| *count == 1), "{size:?} {parts:?}");
         }
-        assert_eq!(parts([512, 512], 1 << 27).len(), 1);
+        assert_eq!(parts([512, 512], 1 << 27, 512).len(), 1);
+        assert_eq!(parts([512, 512], 1 << 27, 511).len(), 2);
     }
 }

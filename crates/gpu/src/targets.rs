@@ -43,12 +43,28 @@ pub(crate) struct Target {
 }
 
 impl Target {
+    /// Most pixels a row or a column that a device takes: larger pictures are drawn in parts.
+    pub(crate) fn largest_side(gpu: &Gpu) -> u32 {
+        gpu.device.limits().max_texture_dimension_2d
+    }
+
     /// A target for pictures up to a size, or parts of them.
-    pub(crate) fn new(gpu: &Gpu, size: [u32; 2], precision: TargetBits) -> Self {
+    ///
+    /// # Errors
+    /// [`GpuError::TooLarge`] for a side beyond [`Self::largest_side`].
+    pub(crate) fn new(gpu: &Gpu, size: [u32; 2], precision: TargetBits) -> Result<Self, GpuError> {
         let size = size.map(|side| side.max(1));
+        let most = Self::largest_side(gpu);
+        if size.iter().any(|side| *side > most) {
+            let bytes =
+                |[width, height]: [u32; 2]| u64::from(width) * u64::from(height) * u64::from(precision.bits() / 2);
+            let adapter = gpu.description().name.clone();
+            let (needed, limit) = (bytes(size), bytes(size.map(|side| side.min(most))));
+            return Err(GpuError::TooLarge { what: "a target of triangles", needed, limit, adapter });
+        }
         let usage = TextureUsages::RENDER_ATTACHMENT | TextureUsages::TEXTURE_BINDING;
         let view = texture(gpu, "triangles", size, format_of(precision), usage).create_view(&Default::default());
-        Self { view, precision, size }
+        Ok(Self { view, precision, size })
     }
 
     /// Width and height, pixels.

@@ -172,12 +172,6 @@ impl TrianglePath {
         kernel.run_over(encoder, group, [x, y]);
     }
 
-    /// The buffer of fans.
-    #[cfg(test)]
-    pub(crate) fn fans(&self) -> &Buffer {
-        &self.fans
-    }
-
     /// Memory that it takes on the device, without targets.
     pub(crate) fn bytes(&self) -> u64 {
         u64::from(self.capacity) * FAN_BYTES + 16
