@@ -1,3 +1,5 @@
+//! Every program composed and validated, and every structure laid out as in Rust.
+
 use std::path::Path;
 
 use super::*;
