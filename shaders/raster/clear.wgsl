@@ -1,4 +1,4 @@
-// A picture with nothing in it: one invocation a pixel or count of a tile.
+// A picture with nothing in it: one invocation a pixel, count of a tile, or half of what a pixel that sorts has to know.
 
 #use include/frame.wgsl
 #use include/list.wgsl
@@ -15,7 +15,7 @@ fn clear(
     let pixels = frame.extent.x * frame.extent.y;
     if place < pixels {
         picture[place] = vec4<u32>(0u, 0u, 0u, bitcast<u32>(1.0));
-    } else if place < pixels + frame.tiles.x * frame.tiles.y {
+    } else if place < arrayLength(&picture) {
         picture[place] = vec4<u32>(0u);
     }
 }

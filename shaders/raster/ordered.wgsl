@@ -42,6 +42,8 @@ fn draw(
     var is_open = is_seen && pixel.transmittance >= frame.termination;
     var joint = no_joint();
     var done = Done(0u, 0u, 0u, 0u);
+    var visited = 0u;
+    var is_early = false;
     for (var first = range.x; first < range.y; first += BATCH) {
         let count = min(BATCH, range.y - first);
         if local < count {
@@ -52,6 +54,7 @@ fn draw(
         }
         workgroupBarrier();
         for (var slot = 0u; slot < count; slot++) {
+            visited += 1u;
             if !is_open || is_outside(staged[slot].outline, position) {
                 continue;
             }
@@ -74,11 +77,12 @@ fn draw(
             is_any_open = atomicLoad(&open_pixels);
         }
         if workgroupUniformLoad(&is_any_open) == 0u {
+            is_early = true;
             break;
         }
     }
     if is_seen {
         store_pixel(position, pixel);
     }
-    count_done(tile, local, done);
+    count_done(tile, local, done, false, !is_early && visited != range.y - range.x);
 }

@@ -3,8 +3,8 @@
 // One group draws one tile, one invocation a pixel. A pixel holds back up to HELD segments, the nearest first, by the depth of their middles
 // and, where those are equal, by their place in the list.
 //
-// - LAYERS: it runs through the tile's cells as often as it takes, each time for the HELD nearest behind those it has. Exact without any order; time
-//   grows with the layers divided by HELD.
+// - LAYERS: it looks for the HELD nearest behind those that it has, and goes on from there when the stage is run again, until no tile is open. Exact
+//   without any order; time grows with the layers divided by HELD. What a pixel has to know in the next run stands behind the tiles in `picture`.
 // - else, a window: it runs through them once, and gives up the nearest when one more comes than the window holds (a k-buffer).
 
 #use integrate/light.wgsl
@@ -23,6 +23,20 @@ struct Key {
 var<workgroup> range_of_tile: vec2<u32>;
 var<workgroup> open_pixels: atomic<u32>;
 var<workgroup> is_any_open: u32;
+
+// What a pixel has to know in the next run.
+struct State {
+    // The last segment that it blended.
+    depth: f32,
+    place: u32,
+    run: u32,
+    joint: Joint,
+}
+
+// A picture that was cleared says FIRST_RUN.
+const FIRST_RUN: u32 = 0u;
+const NEXT_RUN: u32 = 1u;
+const LAST_RUN: u32 = 2u;
 
 var<private> held: array<Key, HELD>;
 var<private> held_count: u32;
@@ -65,6 +79,24 @@ fn draw_segment(place: u32, position: vec2<i32>) {
     done.sorted += 1u;
 }
 
+fn state_place(position: vec2<i32>) -> u32 {
+    let tiles = frame.tiles.x * frame.tiles.y;
+    return frame.extent.x * frame.extent.y + tiles + 2u * place_in_picture(position);
+}
+
+fn load_state(position: vec2<i32>) -> State {
+    let at = state_place(position);
+    let key = picture[at];
+    let carried = bitcast<vec4<f32>>(picture[at + 1u]);
+    return State(bitcast<f32>(key.x), key.y, key.z, Joint(carried.x, carried.y, carried.z));
+}
+
+fn store_state(position: vec2<i32>, state: State) {
+    let at = state_place(position);
+    picture[at] = vec4<u32>(bitcast<u32>(state.depth), state.place, state.run, 0u);
+    picture[at + 1u] = bitcast<vec4<u32>>(vec4<f32>(state.joint.depth, state.joint.slack, state.joint.rank, 0.0));
+}
+
 fn is_pixel_open() -> bool {
     return pixel.transmittance >= frame.termination;
 }
@@ -103,82 +135,90 @@ fn draw(
     let position = pixel_of(tile, local);
     let is_seen = is_in_picture(position);
     pixel = Pixel(vec3<f32>(0.0), 0.0);
-    if is_seen {
-        pixel = load_pixel(position);
-    }
     joint = no_joint();
     done = Done(0u, 0u, 0u, 0u);
-    var is_first_run = true;
     var last = Key(0.0, 0u);
-    var is_open = is_seen && is_pixel_open();
-    loop {
-        held_count = 0u;
-        for (var first = range.x; first < range.y; first += BATCH) {
-            let count = min(BATCH, range.y - first);
-            workgroupBarrier();
-            if local < count {
-                stage(local, tile_items[first + local]);
+    var is_first_run = true;
+    var is_open = is_seen;
+    if is_seen {
+        pixel = load_pixel(position);
+        is_open = is_pixel_open();
+        if LAYERS {
+            let state = load_state(position);
+            is_first_run = state.run == FIRST_RUN;
+            is_open = is_open && state.run != LAST_RUN;
+            last = Key(state.depth, state.place);
+            if !is_first_run {
+                joint = state.joint;
             }
-            workgroupBarrier();
-            for (var slot = 0u; slot < count; slot++) {
-                if !is_open || is_outside(staged[slot].outline, position) {
+        }
+    }
+    if is_open {
+        atomicAdd(&open_pixels, 1u);
+    }
+    workgroupBarrier();
+    if local == 0u {
+        is_any_open = atomicLoad(&open_pixels);
+    }
+    if workgroupUniformLoad(&is_any_open) == 0u {
+        return;
+    }
+    held_count = 0u;
+    var visited = 0u;
+    for (var first = range.x; first < range.y; first += BATCH) {
+        let count = min(BATCH, range.y - first);
+        workgroupBarrier();
+        if local < count {
+            stage(local, tile_items[first + local]);
+        }
+        workgroupBarrier();
+        for (var slot = 0u; slot < count; slot++) {
+            visited += 1u;
+            if !is_open || is_outside(staged[slot].outline, position) {
+                continue;
+            }
+            let sample = sample(staged[slot], position);
+            if !sample.covered {
+                continue;
+            }
+            let key = Key(0.5 * (sample.depth.x + sample.depth.y), tile_items[first + slot]);
+            if LAYERS {
+                if !is_first_run && !is_before(last, key) {
                     continue;
                 }
-                let sample = sample(staged[slot], position);
-                if !sample.covered {
-                    continue;
-                }
-                let key = Key(0.5 * (sample.depth.x + sample.depth.y), tile_items[first + slot]);
-                if LAYERS {
-                    if !is_first_run && !is_before(last, key) {
+                if held_count == HELD {
+                    if !is_before(key, held[HELD - 1u]) {
                         continue;
                     }
-                    if held_count == HELD {
-                        if !is_before(key, held[HELD - 1u]) {
-                            continue;
-                        }
-                        held_count -= 1u;
-                    }
-                    hold(key);
-                } else {
-                    // A window of HELD - 1, and one that is on its way.
-                    hold(key);
-                    if held_count == HELD {
-                        give_up_nearest(position);
-                        is_open = is_pixel_open();
-                    }
+                    held_count -= 1u;
                 }
-                done.most = max(done.most, held_count);
+                hold(key);
+            } else {
+                // A window of HELD - 1, and one that is on its way.
+                hold(key);
+                if held_count == HELD {
+                    give_up_nearest(position);
+                    is_open = is_pixel_open();
+                }
             }
+            done.most = max(done.most, held_count);
         }
+    }
+    if is_open {
+        for (var slot = 0u; slot < held_count && is_pixel_open(); slot++) {
+            draw_segment(held[slot].place, position);
+        }
+        // Fewer than there was room for: these were the last.
+        is_open = LAYERS && is_pixel_open() && held_count == HELD;
         if is_open {
-            for (var slot = 0u; slot < held_count && is_pixel_open(); slot++) {
-                draw_segment(held[slot].place, position);
-            }
-            // Fewer than there was room for: these were the last.
-            is_open = LAYERS && is_pixel_open() && held_count == HELD;
-            if is_open {
-                last = held[HELD - 1u];
-            }
-        }
-        is_first_run = false;
-        if local == 0u {
-            atomicStore(&open_pixels, 0u);
-        }
-        workgroupBarrier();
-        if is_open {
-            atomicAdd(&open_pixels, 1u);
-        }
-        workgroupBarrier();
-        if local == 0u {
-            is_any_open = atomicLoad(&open_pixels);
-        }
-        if workgroupUniformLoad(&is_any_open) == 0u {
-            break;
+            last = held[HELD - 1u];
         }
     }
     if is_seen {
         store_pixel(position, pixel);
+        if LAYERS {
+            store_state(position, State(last.depth, last.place, select(LAST_RUN, NEXT_RUN, is_open), joint));
+        }
     }
-    count_done(tile, local, done);
+    count_done(tile, local, done, is_open, visited != range.y - range.x);
 }

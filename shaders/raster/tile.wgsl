@@ -9,13 +9,15 @@
 @group(0) @binding(11) var<storage, read> tile_starts: array<u32>;
 @group(0) @binding(12) var<storage, read> tile_items: array<u32>;
 // Pixels row by row: red, green, blue, transmittance, as bits; then for every tile: fragments, crossings, fragments that were sorted, most that one pixel
-// sorted.
+// held back, with TILE_OPEN and TILE_CUT.
 @group(0) @binding(13) var<storage, read_write> picture: array<vec4<u32>>;
 
 var<workgroup> fragments_of_tile: atomic<u32>;
 var<workgroup> crossings_of_tile: atomic<u32>;
 var<workgroup> sorted_of_tile: atomic<u32>;
+// The most that a pixel held back, and the bits.
 var<workgroup> most_of_tile: atomic<u32>;
+var<workgroup> flags_of_tile: atomic<u32>;
 
 // A pixel while it is drawn.
 struct Pixel {
@@ -68,11 +70,15 @@ fn blend(pixel: ptr<function, Pixel>, light: Light) {
 }
 
 // Adds what was done to the tile's counts. All invocations of the group take part.
-fn count_done(tile: u32, local: u32, done: Done) {
+//
+// - is_open: whether the pixel is to be run again
+// - is_cut: whether the driver ended a loop before its end
+fn count_done(tile: u32, local: u32, done: Done, is_open: bool, is_cut: bool) {
     atomicAdd(&fragments_of_tile, done.fragments);
     atomicAdd(&crossings_of_tile, done.crossings);
     atomicAdd(&sorted_of_tile, done.sorted);
     atomicMax(&most_of_tile, done.most);
+    atomicOr(&flags_of_tile, select(0u, TILE_OPEN, is_open) | select(0u, TILE_CUT, is_cut));
     workgroupBarrier();
     if local == 0u {
         let place = frame.extent.x * frame.extent.y + tile;
@@ -82,6 +88,7 @@ fn count_done(tile: u32, local: u32, done: Done) {
             atomicLoad(&crossings_of_tile),
             atomicLoad(&sorted_of_tile),
         );
-        picture[place] = vec4<u32>(before.xyz + now, max(before.w, atomicLoad(&most_of_tile)));
+        let most = max(before.w & ~(TILE_OPEN | TILE_CUT), atomicLoad(&most_of_tile));
+        picture[place] = vec4<u32>(before.xyz + now, most | (before.w & TILE_CUT) | atomicLoad(&flags_of_tile));
     }
 }

@@ -33,6 +33,13 @@ pub struct AdapterDescription {
     pub largest_buffer: u64,
 }
 
+impl AdapterDescription {
+    /// Whether it is a program for processors.
+    pub fn is_software(&self) -> bool {
+        self.kind == "cpu"
+    }
+}
+
 /// Which adapter is wanted.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct AdapterChoice {

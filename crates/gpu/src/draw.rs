@@ -15,6 +15,7 @@ use std::time::Duration;
 
 use tetrascope_order::{CycleRemedy, Guarantee};
 use tetrascope_scene::{Counts, GpuPath, OrderReport, Plan, Progress, Rendered, Stage, Stopwatch, TargetBits};
+use tetrascope_shaders::layout::TILE_OPEN;
 use tetrascope_view::{LinearImage, View};
 use wgpu::Buffer;
 
@@ -77,6 +78,21 @@ pub(crate) enum Outcome {
     },
     /// So many pairs of tiles and cells were needed.
     NoRoom(u64),
+}
+
+impl Outcome {
+    /// Whether some pixels are to be run again.
+    pub(crate) fn is_open(&self) -> bool {
+        matches!(self, Self::Drawn { tiles, .. } if tiles.iter().any(|tile| tile[3] & TILE_OPEN != 0))
+    }
+
+    /// With the times of what came before.
+    pub(crate) fn after(mut self, before: Self) -> Self {
+        if let (Self::Drawn { stages, .. }, Self::Drawn { stages: earlier, .. }) = (&mut self, before) {
+            add_times(stages, earlier);
+        }
+        self
+    }
 }
 
 impl<'a> Drawing<'a> {

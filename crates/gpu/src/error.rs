@@ -102,6 +102,14 @@ pub enum GpuError {
         /// The largest.
         most: u32,
     },
+    /// The driver ended a loop before its end, and the picture is not whole.
+    #[error(
+        "the driver of \"{adapter}\" ended a loop before its end, as too many tetrahedra lie behind one tile of the picture; use the back end \"cpu\", or an order of cells"
+    )]
+    LoopCut {
+        /// The adapter.
+        adapter: String,
+    },
     /// The integration is defined on triangles.
     #[error("\"{integration}\" integrates a fan of triangles; use the path \"triangles\", or another integration")]
     NeedsTriangles {

@@ -1,7 +1,7 @@
 //! One part of a picture on the device: its passes, and what comes back.
 
 use tetrascope_scene::Stage;
-use tetrascope_shaders::layout::{Block, GROUP};
+use tetrascope_shaders::layout::{Block, GROUP, TILE_CUT};
 use tetrascope_shaders::{Constant, Slot};
 use wgpu::{CommandEncoder, ComputePass, ComputePassDescriptor};
 
@@ -43,7 +43,7 @@ impl Drawing<'_> {
         let mut laps = Laps::new(renderer.stopwatch.as_ref());
         let mut encoder = gpu.encoder("frame");
         encoder.clear_buffer(&memory.order.totals, 0, None);
-        let pixels = (picture_bytes(part) / 16) as u32;
+        let pixels = (memory.work.picture.size() / 16) as u32;
         self.transform(&mut encoder, &mut laps, &resources, pixels)?;
         self.order(&mut encoder, &mut laps, means, &memory, &resources)?;
         let blocks = memory.block_starts(mesh.cell_count, self.path != Path::Compute);
@@ -66,7 +66,15 @@ impl Drawing<'_> {
                 }
             }
         }
-        self.read(memory, encoder, laps, part)
+        let mut outcome = self.read(memory, encoder, laps, part)?;
+        // Pixels that sort by themselves are run until none is open.
+        while outcome.is_open() {
+            let mut encoder = gpu.encoder("sort on");
+            let mut laps = Laps::new(renderer.stopwatch.as_ref());
+            self.run_sorted(&mut encoder, &mut laps, means, &resources, sort, frame.tiles)?;
+            outcome = self.read(memory, encoder, laps, part)?.after(outcome);
+        }
+        Ok(outcome)
     }
 
     /// Points along the camera's axes, and an empty picture.
@@ -170,10 +178,32 @@ impl Drawing<'_> {
     ) -> Result<(), GpuError> {
         let renderer = self.renderer;
         let gpu = &renderer.gpu;
-        let mut pass = begin(encoder, laps, Stage::Rasterize);
-        for variant in rasterizers(means, sort) {
-            let kernel = renderer.kernels.get(gpu, variant.0, "draw", &variant.1)?;
+        if let Some((file, variant)) = ordered(means, sort) {
+            let mut pass = begin(encoder, laps, Stage::Rasterize);
+            let kernel = renderer.kernels.get(gpu, file, "draw", &variant)?;
             kernel.run(&mut pass, &kernel.bind(gpu, resources), tiles[0] * tiles[1]);
+        }
+        self.run_sorted(encoder, laps, means, resources, sort, tiles)
+    }
+
+    /// Tiles whose pixels sort by themselves: some runs of them.
+    fn run_sorted(
+        &self,
+        encoder: &mut CommandEncoder,
+        laps: &mut Laps<'_>,
+        means: &Means,
+        resources: &[Named<'_>],
+        sort: InPixels,
+        tiles: [u32; 2],
+    ) -> Result<(), GpuError> {
+        let Some((file, variant)) = sorted(means, sort) else { return Ok(()) };
+        let gpu = &self.renderer.gpu;
+        let kernel = self.renderer.kernels.get(gpu, file, "draw", &variant)?;
+        let group = kernel.bind(gpu, resources);
+        let runs = if matches!(sort, InPixels::Window(_)) { 1 } else { RUNS_AT_ONCE };
+        let mut pass = begin(encoder, laps, Stage::Rasterize);
+        for _ in 0..runs {
+            kernel.run(&mut pass, &group, tiles[0] * tiles[1]);
         }
         Ok(())
     }
@@ -238,32 +268,42 @@ impl Drawing<'_> {
             return Ok(Outcome::NoRoom(needed));
         }
         let (pixels, tiles) = picture.split_at(part.extent[0] as usize * part.extent[1] as usize * 16);
+        let tiles: Vec<[u32; 4]> = bytemuck::pod_collect_to_vec(tiles);
+        if self.path == Path::Compute && tiles.iter().any(|tile| tile[3] & TILE_CUT != 0) {
+            return Err(GpuError::LoopCut { adapter: gpu.description().name.clone() });
+        }
         let times = renderer.stopwatch.as_ref().map_or_else(Vec::new, |watch| watch.stages(&stages, times));
-        Ok(Outcome::Drawn {
-            pixels: bytemuck::pod_collect_to_vec(pixels),
-            tiles: bytemuck::pod_collect_to_vec(tiles),
-            totals,
-            stages: times,
-        })
+        Ok(Outcome::Drawn { pixels: bytemuck::pod_collect_to_vec(pixels), tiles, totals, stages: times })
     }
 }
 
-/// The programs that draw tiles, with their variants.
-pub(crate) fn rasterizers(means: &Means, sort: InPixels) -> Vec<(&'static str, Variant)> {
-    let ordered = |rings| ("raster/ordered.wgsl", means.variant.with_slots(&[("rings", rings)]));
-    let sorted = |rings, layers: bool, held: u32| {
-        let constants = [("LAYERS", Constant::Bool(layers)), ("HELD", Constant::U32(held))];
-        ("raster/sorted.wgsl", means.variant.with_slots(&[("rings", rings)]).with_constants(&constants))
+/// Runs of the pixels that sort before the device is asked whether there are open ones: enough for a hundred layers.
+const RUNS_AT_ONCE: u32 = 8;
+
+/// A program and its variant.
+type Rasterizer = (&'static str, Variant);
+
+/// What draws tiles in the order of the cells, if any are drawn so.
+pub(crate) fn ordered(means: &Means, sort: InPixels) -> Option<Rasterizer> {
+    let rings = match sort {
+        InPixels::Nothing => "raster/no_rings.wgsl",
+        InPixels::Rings => "raster/rings.wgsl",
+        InPixels::All | InPixels::Window(_) => return None,
     };
-    match sort {
-        InPixels::Nothing => vec![ordered("raster/no_rings.wgsl")],
-        InPixels::Rings => {
-            vec![ordered("raster/rings.wgsl"), sorted("raster/rings.wgsl", true, HELD_IN_LAYERS)]
-        }
-        InPixels::All => vec![sorted("raster/every_tile.wgsl", true, HELD_IN_LAYERS)],
+    Some(("raster/ordered.wgsl", means.variant.with_slots(&[("rings", rings)])))
+}
+
+/// What draws tiles whose pixels sort, if any do.
+pub(crate) fn sorted(means: &Means, sort: InPixels) -> Option<Rasterizer> {
+    let (rings, layers, held) = match sort {
+        InPixels::Nothing => return None,
+        InPixels::Rings => ("raster/rings.wgsl", true, HELD_IN_LAYERS),
+        InPixels::All => ("raster/every_tile.wgsl", true, HELD_IN_LAYERS),
         // One more is on its way.
-        InPixels::Window(window) => vec![sorted("raster/every_tile.wgsl", false, window + 1)],
-    }
+        InPixels::Window(window) => ("raster/every_tile.wgsl", false, window + 1),
+    };
+    let constants = [("LAYERS", Constant::Bool(layers)), ("HELD", Constant::U32(held))];
+    Some(("raster/sorted.wgsl", means.variant.with_slots(&[("rings", rings)]).with_constants(&constants)))
 }
 
 /// A compute pass of a stage.

@@ -24,7 +24,7 @@ use crate::sorting::{DeviceOrder, InPixels, MadeOrder, Source};
 use crate::targets::Target;
 use crate::triangles::{Interpolated, TrianglePath};
 use crate::view::Part;
-use crate::work::{BlockPlan, Work};
+use crate::work::{BlockPlan, Work, most_in_block};
 use crate::{Gpu, GpuError};
 
 /// Transfer functions whose lookups are remembered, so that going back and forth between two costs nothing.
@@ -318,9 +318,10 @@ impl Kept {
         let limit = gpu.largest_binding();
         let whole = sort != InPixels::Nothing;
         self.order(renderer, drawing.source)?;
+        let most = most_in_block(gpu, drawing.path, mesh.cell_count);
         let plan = match self.plan {
-            Some((plan, was_whole)) if was_whole == whole => plan,
-            _ => BlockPlan::new(mesh.cell_count, whole, limit),
+            Some((plan, was_whole)) if was_whole == whole && (whole || plan.cells <= most) => plan,
+            _ => BlockPlan::new(mesh.cell_count, whole, limit, most),
         };
         if whole && plan.cells < mesh.cell_count {
             return Err(GpuError::TooLarge {
@@ -331,10 +332,10 @@ impl Kept {
             });
         }
         self.plan = Some((plan, whole));
-        if !self.work.as_ref().is_some_and(|work| work.fits(plan.cells, part)) {
+        if !self.work.as_ref().is_some_and(|work| work.fits(plan.cells, part, whole)) {
             // What is bound to it goes with it.
             (self.work, self.tiles) = (None, None);
-            self.work = Some(Work::new(gpu, plan.cells, part));
+            self.work = Some(Work::new(gpu, plan.cells, part, whole));
         }
         let (Some(order), Some(work)) = (&self.order, &self.work) else { return Ok(()) };
         match drawing.path {
@@ -386,7 +387,7 @@ impl Kept {
     /// [`GpuError::TooLarge`] if neither helps.
     pub(crate) fn make_room(&mut self, renderer: &GpuRenderer, pairs: u64) -> Result<(), GpuError> {
         let limit = renderer.gpu.largest_binding();
-        let (plan, whole) = self.plan.unwrap_or((BlockPlan::new(renderer.mesh.cell_count, false, limit), false));
+        let Some((plan, whole)) = self.plan else { return Ok(()) };
         let plan = plan.with_room(pairs, whole, limit).ok_or_else(|| GpuError::TooLarge {
             what: "the tetrahedra of the picture's tiles",
             needed: pairs * 4,

@@ -5,7 +5,7 @@ use std::time::Duration;
 use tetrascope_scene::{BufferRole, DeviceBuffer, DeviceReport, GpuPath, Stage};
 
 use crate::draw::{Drawing, Means, Path};
-use crate::frame::rasterizers;
+use crate::frame::{ordered, sorted};
 use crate::kept::Kept;
 use crate::sorting::InPixels;
 
@@ -41,7 +41,10 @@ impl Drawing<'_> {
         add(BufferRole::Lookup, "transfer function", means.lookups.bytes());
         add(BufferRole::Lookup, "isosurfaces and light", means.effects.bytes());
         let pipelines = match self.path {
-            Path::Compute => rasterizers(means, sort).iter().map(|(file, variant)| variant.describe(file)).collect(),
+            Path::Compute => {
+                let programs = ordered(means, sort).into_iter().chain(sorted(means, sort));
+                programs.map(|(file, variant)| variant.describe(file)).collect()
+            }
             Path::Triangles(_) => vec![means.variant.describe("triangles/draw.wgsl")],
         };
         DeviceReport {

@@ -1,15 +1,31 @@
 //! Memory of a frame: the cells of a block, their places in tiles, and the picture.
 
+use tetrascope_scene::TargetBits;
 use wgpu::{Buffer, BufferUsages};
 
 use crate::Gpu;
+use crate::draw::Path;
 use crate::kept::TOTALS;
-use crate::part::picture_bytes;
+use crate::part::{picture_bytes, sorted_picture_bytes};
 use crate::stopwatch::DeviceStopwatch;
 use crate::view::Part;
 
 /// Most cells of a block: their memory stays below some 200 MB, and a block keeps every device busy.
 pub(crate) const MOST_IN_BLOCK: u32 = 1 << 22;
+/// The same for drivers that are programs for processors: Mesa's ends an invocation's loops after 65536 turns together, without a word.
+const MOST_IN_SOFTWARE: u32 = 1 << 14;
+/// Blocks of an order whose cells are blended in 16 bits: each is added up in 32, so that few layers round in 16.
+const BLOCKS_OF_16_BITS: u32 = 64;
+
+/// Most cells of a block on a device, by a path.
+pub(crate) fn most_in_block(gpu: &Gpu, path: Path, cells: u32) -> u32 {
+    let most = if gpu.description().is_software() { MOST_IN_SOFTWARE } else { MOST_IN_BLOCK };
+    match path {
+        Path::Triangles(TargetBits::Sixteen) => most.min(cells.div_ceil(BLOCKS_OF_16_BITS).max(MOST_IN_SOFTWARE)),
+        _ => most,
+    }
+}
+
 /// Fewest: blocks of fewer cells cost more than the picture.
 pub(crate) const LEAST_IN_BLOCK: u32 = 1 << 12;
 /// Bytes of a cell that was fetched.
@@ -29,9 +45,10 @@ impl BlockPlan {
     ///
     /// - `whole`: whether all cells must be in one block, since pixels sort
     /// - `limit`: bytes of one binding
-    pub(crate) fn new(cells: u32, whole: bool, limit: u64) -> Self {
+    /// - `in_block`: most cells of a block, if it need not be whole
+    pub(crate) fn new(cells: u32, whole: bool, limit: u64, in_block: u32) -> Self {
         let most = (limit / BYTES_PER_CELL).min(u64::from(u32::MAX)) as u32;
-        let cells = cells.max(1).min(if whole { most } else { most.min(MOST_IN_BLOCK) });
+        let cells = cells.max(1).min(if whole { most } else { most.min(in_block) });
         // Most cells touch one tile or two.
         let pairs = (2 * u64::from(cells) + (1 << 14)).min(limit / 4) as u32;
         Self { cells, pairs }
@@ -57,26 +74,35 @@ pub(crate) struct Work {
     /// What comes back: picture, totals, times.
     pub(crate) read_back: Buffer,
     cells: u32,
-    picture_bytes: u64,
+    part: Part,
+    whole: bool,
 }
 
 impl Work {
     /// - `cells`: of a block
-    pub(crate) fn new(gpu: &Gpu, cells: u32, part: Part) -> Self {
-        let picture_bytes = picture_bytes(part);
+    /// - `whole`: whether pixels sort
+    pub(crate) fn new(gpu: &Gpu, cells: u32, part: Part, whole: bool) -> Self {
+        let state_and_picture = if whole { sorted_picture_bytes(part) } else { picture_bytes(part) };
         let extra = (TOTALS * 4) as u64 + DeviceStopwatch::BYTES;
         Self {
             drawn: gpu.storage("drawn", u64::from(cells) * BYTES_PER_CELL),
-            picture: gpu.storage("picture", picture_bytes),
-            read_back: gpu.buffer("read-back", picture_bytes + extra, BufferUsages::MAP_READ | BufferUsages::COPY_DST),
+            picture: gpu.storage("picture", state_and_picture),
+            read_back: gpu.buffer(
+                "read-back",
+                picture_bytes(part) + extra,
+                BufferUsages::MAP_READ | BufferUsages::COPY_DST,
+            ),
             cells,
-            picture_bytes,
+            part,
+            whole,
         }
     }
 
     /// Whether it has room.
-    pub(crate) fn fits(&self, cells: u32, part: Part) -> bool {
-        self.cells >= cells && self.picture_bytes >= picture_bytes(part)
+    ///
+    /// Its picture is for parts of one size: what pixels have to know comes right behind.
+    pub(crate) fn fits(&self, cells: u32, part: Part, whole: bool) -> bool {
+        self.cells >= cells && self.part.extent == part.extent && self.whole == whole
     }
 
     /// Bytes on the device.
@@ -92,16 +118,17 @@ mod tests {
     #[test]
     fn room_is_found_or_there_is_none() {
         let limit = 1 << 27;
-        let plan = BlockPlan::new(5_000_000, false, limit);
+        let plan = BlockPlan::new(5_000_000, false, limit, MOST_IN_BLOCK);
         assert_eq!(plan.cells, MOST_IN_BLOCK);
-        assert_eq!(BlockPlan::new(5_000_000, true, limit).cells, 5_000_000);
+        assert_eq!(BlockPlan::new(5_000_000, true, limit, MOST_IN_SOFTWARE).cells, 5_000_000);
         let more = plan.with_room(20_000_000, false, limit).unwrap();
         assert!(more.cells == plan.cells && more.pairs >= 20_000_000);
+        assert_eq!(BlockPlan::new(5_000_000, false, limit, MOST_IN_SOFTWARE).cells, MOST_IN_SOFTWARE);
         // 33 million pairs are all that fit: half of the cells may have so many.
         let less = more.with_room(40_000_000, false, limit).unwrap();
         assert_eq!(less.cells, plan.cells / 2);
         assert_eq!(more.with_room(40_000_000, true, limit), None);
         assert_eq!(BlockPlan { cells: LEAST_IN_BLOCK, pairs: 0 }.with_room(1 << 40, false, limit), None);
-        assert!(BlockPlan::new(0, false, limit).cells > 0);
+        assert!(BlockPlan::new(0, false, limit, MOST_IN_BLOCK).cells > 0);
     }
 }

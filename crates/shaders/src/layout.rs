@@ -25,6 +25,11 @@ pub const NEGATIVE_BIT: u32 = 1 << 31;
 /// The bit of a cell's number in an order that says that it lies in a ring, and of a drawn cell's third vertex index.
 pub const RING_BIT: u32 = 1 << 31;
 
+/// The bit of a tile's last count that says that some of its pixels are to be run again.
+pub const TILE_OPEN: u32 = 1 << 30;
+/// The bit that says that the driver ended a loop before its end.
+pub const TILE_CUT: u32 = 1 << 31;
+
 /// Those that every program has.
 pub(crate) const CONSTANTS: &[(&str, Constant)] = &[
     ("LATTICE_STEP", Constant::F32(LATTICE_STEP as f32)),
@@ -33,6 +38,8 @@ pub(crate) const CONSTANTS: &[(&str, Constant)] = &[
     ("GROUP", Constant::U32(GROUP)),
     ("NEGATIVE_BIT", Constant::U32(NEGATIVE_BIT)),
     ("RING_BIT", Constant::U32(RING_BIT)),
+    ("TILE_OPEN", Constant::U32(TILE_OPEN)),
+    ("TILE_CUT", Constant::U32(TILE_CUT)),
     ("PSI_DEPTHS", Constant::U32(PsiTable::DEPTHS as u32)),
     ("PSI_BALANCES", Constant::U32(PsiTable::BALANCES as u32)),
     ("LIST_ITEMS", Constant::U32(LIST_ITEMS)),
