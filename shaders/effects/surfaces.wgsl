@@ -76,7 +76,8 @@ fn shade(
     var light = Light(vec3<f32>(0.0), 1.0);
     // The scalar up to where the segment is composed.
     var reached = sample.front;
-    for (var step = 0u; step < crossed; step++) {
+    // Behind an opaque surface nothing is seen. No return within the loop: drivers are known to end the loops around it as well.
+    for (var step = 0u; step < crossed && light.transmittance > 0.0; step++) {
         let index = near.x + select(ranks.x - 1u - step, ranks.x + step, rises);
         let surface = surfaces[index];
         let value = local_value(index, cell.reference, tolerance);
@@ -95,13 +96,9 @@ fn shade(
         let rgb = surface.opacity * select(surface.color, surface.back_color, rises);
         let lit = surface_light(rgb, surface.opacity, surface.shading, corners, vertices, sample, depth);
         light = over(light, Light(lit, 1.0 - surface.opacity));
-        // Behind an opaque one nothing is seen.
-        if light.transmittance <= 0.0 {
-            return light;
-        }
     }
     let rest = select((sample.back - reached) * inverse, 1.0, is_flat);
-    if rest > 0.0 {
+    if rest > 0.0 && light.transmittance > 0.0 {
         let part = volume(optics, reached, sample.back, sample.length * rest);
         light = over(light, Light(part.rgb * intensity, part.transmittance));
     }

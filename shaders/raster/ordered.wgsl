@@ -1,6 +1,7 @@
 // Cells in order, front to back, into the pixels of a tile; color and transmittance stay in registers until all are drawn.
 //
-// One group draws one tile. A tile whose pixels are opaque ends early. Where a part of the cells lies in rings, the tiles that they touch are left to
+// One group draws one tile. Each invocation goes on to the next cell that covers its pixel before any is shaded, so that invocations that run together shade
+// together, each its own cell: cells are small, and few pixels have the same. A tile whose pixels are opaque ends early. Where a part of the cells lies in rings, the tiles that they touch are left to
 // `raster/sorted.wgsl`.
 
 #use integrate/light.wgsl
@@ -42,8 +43,7 @@ fn draw(
     var is_open = is_seen && pixel.transmittance >= frame.termination;
     var joint = no_joint();
     var done = Done(0u, 0u, 0u, 0u);
-    var visited = 0u;
-    var is_early = false;
+    var is_cut = false;
     for (var first = range.x; first < range.y; first += BATCH) {
         let count = min(BATCH, range.y - first);
         if local < count {
@@ -53,22 +53,22 @@ fn draw(
             atomicStore(&open_pixels, 0u);
         }
         workgroupBarrier();
-        for (var slot = 0u; slot < count; slot++) {
-            visited += 1u;
-            if !is_open || is_outside(staged[slot].outline, position) {
-                continue;
-            }
-            let cell = staged[slot];
-            let sample = sample(cell, position);
-            if sample.covered {
+        var slot = 0u;
+        while slot < count && is_open {
+            let found = next_covered(slot, count, position);
+            slot = found.slot;
+            if found.sample.covered {
                 var crossings = 0u;
-                let light = shade(cell, staged_vertices[slot], staged_optics[slot], sample, &joint, &crossings);
-                done.crossings += crossings;
+                let light =
+                    shade(staged[slot], staged_vertices[slot], staged_optics[slot], found.sample, &joint, &crossings);
                 blend(&pixel, light);
+                done.crossings += crossings;
                 done.fragments += 1u;
                 is_open = pixel.transmittance >= frame.termination;
+                slot += 1u;
             }
         }
+        is_cut = is_cut || (is_open && slot < count);
         if is_open {
             atomicAdd(&open_pixels, 1u);
         }
@@ -77,12 +77,11 @@ fn draw(
             is_any_open = atomicLoad(&open_pixels);
         }
         if workgroupUniformLoad(&is_any_open) == 0u {
-            is_early = true;
             break;
         }
     }
     if is_seen {
         store_pixel(position, pixel);
     }
-    count_done(tile, local, done, false, !is_early && visited != range.y - range.x);
+    count_done(tile, local, done, false, is_cut);
 }

@@ -59,6 +59,16 @@ fn hold(key: Key) {
     held_count += 1u;
 }
 
+// Puts a segment to its place if it lies behind all of earlier runs and before some of those held, or if there is room.
+fn hold_if_next(key: Key, last: Key, is_first_run: bool) {
+    let is_behind = is_first_run || is_before(last, key);
+    let is_full = held_count == HELD;
+    if is_behind && (!is_full || is_before(key, held[HELD - 1u])) {
+        held_count -= select(0u, 1u, is_full);
+        hold(key);
+    }
+}
+
 // Blends the segment of a cell, which is set up once more: that costs less than to keep what it was.
 fn draw_segment(place: u32, position: vec2<i32>) {
     let vertices = drawn[place];
@@ -164,7 +174,7 @@ fn draw(
         return;
     }
     held_count = 0u;
-    var visited = 0u;
+    var is_cut = false;
     for (var first = range.x; first < range.y; first += BATCH) {
         let count = min(BATCH, range.y - first);
         workgroupBarrier();
@@ -172,37 +182,28 @@ fn draw(
             stage(local, tile_items[first + local]);
         }
         workgroupBarrier();
-        for (var slot = 0u; slot < count; slot++) {
-            visited += 1u;
-            if !is_open || is_outside(staged[slot].outline, position) {
-                continue;
-            }
-            let sample = sample(staged[slot], position);
-            if !sample.covered {
-                continue;
-            }
-            let key = Key(0.5 * (sample.depth.x + sample.depth.y), tile_items[first + slot]);
-            if LAYERS {
-                if !is_first_run && !is_before(last, key) {
-                    continue;
-                }
-                if held_count == HELD {
-                    if !is_before(key, held[HELD - 1u]) {
-                        continue;
+        var slot = 0u;
+        while slot < count && is_open {
+            let found = next_covered(slot, count, position);
+            slot = found.slot;
+            if found.sample.covered {
+                let depth = 0.5 * (found.sample.depth.x + found.sample.depth.y);
+                let key = Key(depth, tile_items[first + slot]);
+                if LAYERS {
+                    hold_if_next(key, last, is_first_run);
+                } else {
+                    // A window of HELD - 1, and one that is on its way.
+                    hold(key);
+                    if held_count == HELD {
+                        give_up_nearest(position);
+                        is_open = is_pixel_open();
                     }
-                    held_count -= 1u;
                 }
-                hold(key);
-            } else {
-                // A window of HELD - 1, and one that is on its way.
-                hold(key);
-                if held_count == HELD {
-                    give_up_nearest(position);
-                    is_open = is_pixel_open();
-                }
+                slot += 1u;
+                done.most = max(done.most, held_count);
             }
-            done.most = max(done.most, held_count);
         }
+        is_cut = is_cut || (is_open && slot < count);
     }
     if is_open {
         for (var slot = 0u; slot < held_count && is_pixel_open(); slot++) {
@@ -220,5 +221,5 @@ fn draw(
             store_state(position, State(last.depth, last.place, select(LAST_RUN, NEXT_RUN, is_open), joint));
         }
     }
-    count_done(tile, local, done, is_open, visited != range.y - range.x);
+    count_done(tile, local, done, is_open, is_cut);
 }

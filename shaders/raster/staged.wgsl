@@ -20,3 +20,23 @@ fn stage(slot: u32, place: u32) {
     staged_optics[slot] = optics_of(cell);
     staged_vertices[slot] = vertices;
 }
+
+// A slot, and what its cell has in the pixel; if nothing, there is no further one.
+struct Found {
+    slot: u32,
+    sample: Sample,
+}
+
+// The first of the slots from one on whose cell covers a pixel.
+fn next_covered(first: u32, count: u32, position: vec2<i32>) -> Found {
+    var found: Found;
+    found.slot = first;
+    found.sample.covered = false;
+    while found.slot < count && !found.sample.covered {
+        if !is_outside(staged[found.slot].outline, position) {
+            found.sample = sample(staged[found.slot], position);
+        }
+        found.slot += select(1u, 0u, found.sample.covered);
+    }
+    return found;
+}

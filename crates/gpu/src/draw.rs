@@ -161,7 +161,15 @@ impl<'a> Drawing<'a> {
         let mut stages = Vec::new();
         let mut is_first = true;
         while let Some(part) = waiting.pop() {
-            match self.draw_part(kept, &means, sort, part)? {
+            let outcome = match self.draw_part(kept, &means, sort, part) {
+                // Fewer cells at a time make shorter loops.
+                Err(GpuError::LoopCut { .. }) if kept.halve_block() => {
+                    waiting.push(part);
+                    continue;
+                }
+                outcome => outcome?,
+            };
+            match outcome {
                 Outcome::Drawn { pixels, tiles, totals, stages: times } => {
                     copy(&mut image, part, &pixels);
                     add_counts(&mut counts, &tiles, &totals, is_first);

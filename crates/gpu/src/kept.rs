@@ -24,7 +24,7 @@ use crate::sorting::{DeviceOrder, InPixels, MadeOrder, Source};
 use crate::targets::Target;
 use crate::triangles::{Interpolated, TrianglePath};
 use crate::view::Part;
-use crate::work::{BlockPlan, Work, most_in_block};
+use crate::work::{BlockPlan, LEAST_IN_BLOCK, Work, most_in_block};
 use crate::{Gpu, GpuError};
 
 /// Transfer functions whose lookups are remembered, so that going back and forth between two costs nothing.
@@ -396,6 +396,16 @@ impl Kept {
         })?;
         self.plan = Some((plan, whole));
         Ok(())
+    }
+
+    /// Takes half of the cells at a time; false if they must be together, or are few.
+    pub(crate) fn halve_block(&mut self) -> bool {
+        let Some((plan, whole)) = &mut self.plan else { return false };
+        let is_possible = !*whole && plan.cells > LEAST_IN_BLOCK;
+        if is_possible {
+            plan.cells = plan.cells.div_ceil(2);
+        }
+        is_possible
     }
 
     /// What a part of a frame works on, once it is prepared.

@@ -27,7 +27,7 @@ pub(crate) fn most_in_block(gpu: &Gpu, path: Path, cells: u32) -> u32 {
 }
 
 /// Fewest: blocks of fewer cells cost more than the picture.
-pub(crate) const LEAST_IN_BLOCK: u32 = 1 << 12;
+pub(crate) const LEAST_IN_BLOCK: u32 = 1 << 10;
 /// Bytes of a cell that was fetched.
 const BYTES_PER_CELL: u64 = 16;
 
