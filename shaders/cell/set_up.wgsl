@@ -15,7 +15,22 @@ struct Planes {
     entry_count: u32,
 }
 
+// The cross product of the first two edges of a face, of which the third is the difference; from the two shorter ones, since rounding goes
+// with the product of their lengths: in a needle the two long ones are next to parallel.
+fn normal_of(pq: vec3<f32>, pr: vec3<f32>, qr: vec3<f32>) -> vec3<f32> {
+    let longest = max(dot(pq, pq), max(dot(pr, pr), dot(qr, qr)));
+    let first = select(pq, pr, dot(pq, pq) == longest);
+    let second = select(pr, qr, dot(qr, qr) < longest);
+    return cross(first, second);
+}
+
 fn set_up(vertices: vec4<u32>) -> Cell {
+    return set_up_within(vertices, whole_part());
+}
+
+// The same for a box of pixels, first column and row, last column and row: the reference is in the middle of what the cell covers there, so that however
+// large the cell is on the screen, no plane is followed farther than the box reaches.
+fn set_up_within(vertices: vec4<u32>, box: vec4<i32>) -> Cell {
     let corner = bare(vertices);
     let a = points[corner.x];
     let b = points[corner.y];
@@ -27,7 +42,8 @@ fn set_up(vertices: vec4<u32>) -> Cell {
     // By corners, unless all that follows goes well.
     var cell: Cell;
     cell.faces = array<vec4<i32>, 4>(a, b, c, d);
-    cell.outline = find_outline(vertices);
+    let outline = find_outline(vertices);
+    cell.outline = vec4<i32>(max(outline.xy, box.xy), min(outline.zw, box.zw));
     cell.pixel = (cell.outline.xy + cell.outline.zw) / 2;
     cell.reference = a.w;
     cell.scalars = vec2<f32>(f32(low - a.w), f32(high - a.w)) * LATTICE_STEP;
@@ -38,10 +54,13 @@ fn set_up(vertices: vec4<u32>) -> Cell {
     let ac = vec3<f32>(c.xyz - a.xyz) * LATTICE_STEP;
     let ad = vec3<f32>(d.xyz - a.xyz) * LATTICE_STEP;
     let outward = select(1.0, -1.0, (vertices.w & NEGATIVE_BIT) != 0u);
-    let n1 = -outward * cross(ac, ad);
-    let n2 = outward * cross(ab, ad);
-    let n3 = -outward * cross(ab, ac);
-    let n0 = outward * cross(ac - ab, ad - ab);
+    let bc = vec3<f32>(c.xyz - b.xyz) * LATTICE_STEP;
+    let bd = vec3<f32>(d.xyz - b.xyz) * LATTICE_STEP;
+    let cd = vec3<f32>(d.xyz - c.xyz) * LATTICE_STEP;
+    let n1 = -outward * normal_of(ac, ad, cd);
+    let n2 = outward * normal_of(ab, ad, bd);
+    let n3 = -outward * normal_of(ab, ac, bc);
+    let n0 = outward * normal_of(bc, bd, cd);
 
     // The reference: on the ray of the middle pixel, at the corners' mean depth.
     let middle = 0.25 * (ab.z + ac.z + ad.z);

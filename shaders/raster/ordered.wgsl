@@ -47,7 +47,7 @@ fn draw(
     for (var first = range.x; first < range.y; first += BATCH) {
         let count = min(BATCH, range.y - first);
         if local < count {
-            stage(local, tile_items[first + local]);
+            stage(local, tile_items[first + local], tile);
         }
         if local == 0u {
             atomicStore(&open_pixels, 0u);

@@ -72,7 +72,7 @@ fn hold_if_next(key: Key, last: Key, is_first_run: bool) {
 // Blends the segment of a cell, which is set up once more: that costs less than to keep what it was.
 fn draw_segment(place: u32, position: vec2<i32>) {
     let vertices = drawn[place];
-    let cell = set_up(vertices);
+    let cell = set_up_within(vertices, vec4<i32>(position, position));
     let sample = sample(cell, position);
     if !sample.covered {
         return;
@@ -179,7 +179,7 @@ fn draw(
         let count = min(BATCH, range.y - first);
         workgroupBarrier();
         if local < count {
-            stage(local, tile_items[first + local]);
+            stage(local, tile_items[first + local], tile);
         }
         workgroupBarrier();
         var slot = 0u;

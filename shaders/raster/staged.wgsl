@@ -12,10 +12,11 @@ var<workgroup> staged: array<Cell, BATCH>;
 var<workgroup> staged_optics: array<Optics, BATCH>;
 var<workgroup> staged_vertices: array<vec4<u32>, BATCH>;
 
-// Sets up the cell of a place in the block's list, in a slot.
-fn stage(slot: u32, place: u32) {
+// Sets up the cell of a place in the block's list for the pixels of a tile, in a slot.
+fn stage(slot: u32, place: u32, tile: u32) {
     let vertices = drawn[place];
-    let cell = set_up(vertices);
+    let corner = vec2<i32>(corner_of(tile));
+    let cell = set_up_within(vertices, vec4<i32>(corner, corner + i32(TILE_SIDE) - 1));
     staged[slot] = cell;
     staged_optics[slot] = optics_of(cell);
     staged_vertices[slot] = vertices;

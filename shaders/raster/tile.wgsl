@@ -33,12 +33,16 @@ struct Done {
     most: u32,
 }
 
+// The first pixel of a tile: absolute column and row.
+fn corner_of(tile: u32) -> vec2<u32> {
+    return frame.origin + vec2<u32>(tile % frame.tiles.x, tile / frame.tiles.x) * TILE_SIDE;
+}
+
 // A pixel of a tile: absolute column and row.
 fn pixel_of(tile: u32, local: u32) -> vec2<i32> {
-    let corner = vec2<u32>(tile % frame.tiles.x, tile / frame.tiles.x) * TILE_SIDE;
     let strip = local >> 5u;
     let within = vec2<u32>((local & 7u) + 8u * (strip & 1u), ((local >> 3u) & 3u) + 4u * (strip >> 1u));
-    return vec2<i32>(frame.origin + corner + within);
+    return vec2<i32>(corner_of(tile) + within);
 }
 
 fn is_in_picture(pixel: vec2<i32>) -> bool {

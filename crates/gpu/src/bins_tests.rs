@@ -88,7 +88,7 @@ fn boxes(frame: &Frame, count: usize, largest: u32, numbers: &mut Numbers) -> Ve
                 1..20 => [last, [frame.origin[0], last[1]]],
                 _ => [low, high],
             };
-            [low[0] + 100, low[1] + 100, high[0] + 100 | bits[0], high[1] + 100 | bits[1]]
+            [low[0] + 100, low[1] + 100, (high[0] + 100) | bits[0], (high[1] + 100) | bits[1]]
         })
         .collect()
 }

@@ -202,7 +202,7 @@ impl<'a> Drawing<'a> {
         let gradients = if effects.needs_gradients() { Some(kept.gradients(renderer)?) } else { None };
         watch.lap(Stage::Prepare);
         let report = |done, total| self.progress.report(Stage::Tabulate, done, total);
-        let lookups = kept.lookups(renderer, plan, &report)?;
+        let lookups = kept.lookups(renderer, plan, &effects, &report)?;
         watch.lap(Stage::Tabulate);
         let mut slots = vec![("pieces", "integrate/pieces.wgsl")];
         slots.extend(lookups.slots());

@@ -102,6 +102,9 @@ pub enum GpuError {
         /// The largest.
         most: u32,
     },
+    /// A picture is shown whole or not at all.
+    #[error("the picture is too large for this device to hold it whole; show a smaller one")]
+    NotWhole,
     /// The driver ended a loop before its end, and the picture is not whole.
     #[error(
         "the driver of \"{adapter}\" ended a loop before its end, as too many tetrahedra lie behind one tile of the picture; use the back end \"cpu\", or an order of cells"

@@ -6,7 +6,7 @@ use tetrascope_order::OrderMethod;
 use tetrascope_scene::{BufferRole, Plan, TargetBits};
 use tetrascope_shaders::layout::{Block, Frame, TILE_SIDE};
 use tetrascope_view::View;
-use wgpu::{Buffer, BufferUsages};
+use wgpu::{Buffer, BufferUsages, TextureFormat, TextureView};
 
 use crate::bins::{Bins, BinsKernels, BinsSize};
 use crate::compact::Compact;
@@ -21,7 +21,7 @@ use crate::power_functions::{NotResolved, PowerFrame, PowerFunctions};
 use crate::renderer::GpuRenderer;
 use crate::scan::{ListKernels, words};
 use crate::sorting::{DeviceOrder, InPixels, MadeOrder, Source};
-use crate::targets::Target;
+use crate::targets::{Display, Target};
 use crate::triangles::{Interpolated, TrianglePath};
 use crate::view::Part;
 use crate::work::{BlockPlan, LEAST_IN_BLOCK, Work, most_in_block};
@@ -46,6 +46,7 @@ pub(crate) struct Kept {
     power: Option<Result<PowerFunctions, NotResolved>>,
     order: Option<OrderMemory>,
     triangles: Option<TriangleMemory>,
+    display: Option<(TextureFormat, Display)>,
     /// How the order is cut, and whether all cells must be together.
     plan: Option<(BlockPlan, bool)>,
     work: Option<Work>,
@@ -196,12 +197,12 @@ impl OrderMemory {
         source: Source,
         power: Option<&PowerFunctions>,
     ) -> Result<(), GpuError> {
-        let is_there = match (&self.sorter, source) {
+        let is_there = matches!(
+            (&self.sorter, source),
             (_, Source::AsTheyCome | Source::Made)
-            | (Some(DeviceOrder::Centroids(_)), Source::Centroids)
-            | (Some(DeviceOrder::Power(_)), Source::Power) => true,
-            _ => false,
-        };
+                | (Some(DeviceOrder::Centroids(_)), Source::Centroids)
+                | (Some(DeviceOrder::Power(_)), Source::Power)
+        );
         let [part] = mesh.parts.as_slice() else { return Ok(()) };
         if is_there {
             return Ok(());
@@ -236,12 +237,20 @@ impl OrderMemory {
 
 impl Kept {
     /// What the plan's integration looks up; made anew only when it changed.
+    ///
+    /// - `effects`: those of the plan: a table that stops at isosurfaces stops where the map has them
     pub(crate) fn lookups(
         &mut self,
         renderer: &GpuRenderer,
         plan: &Plan,
+        effects: &Effects,
         progress: &(dyn Fn(u64, u64) + Sync),
     ) -> Result<Arc<Lookups>, GpuError> {
+        let mut plan = plan.clone();
+        if let Some(isosurfaces) = &mut plan.isosurfaces {
+            isosurfaces.surfaces = effects.surfaces().with_scalars_scaled(1.0 / renderer.field.scalar_factor);
+        }
+        let plan = &plan;
         match self.lookups.iter().position(|lookups| lookups.is_for(plan)) {
             Some(place) => self.lookups[..=place].rotate_right(1),
             None => {
@@ -395,6 +404,37 @@ impl Kept {
             adapter: renderer.gpu.description().name.clone(),
         })?;
         self.plan = Some((plan, whole));
+        Ok(())
+    }
+
+    /// Shows the last picture over a background.
+    pub(crate) fn show(
+        &mut self,
+        gpu: &Gpu,
+        size: [u32; 2],
+        background: [f32; 3],
+        view: &TextureView,
+        format: TextureFormat,
+    ) -> Result<(), GpuError> {
+        let (Some(order), Some(work)) = (&self.order, &self.work) else { return Err(GpuError::NotWhole) };
+        if work.extent() != size {
+            return Err(GpuError::NotWhole);
+        }
+        let display = match self.display.take().filter(|(known, _)| *known == format) {
+            Some((_, display)) => display,
+            None => Display::new(gpu, format)?,
+        };
+        let [r, g, b] = background;
+        let background = gpu.uniform_of("background", &[r, g, b, 0.0]);
+        let resources = [
+            ("frame", order.frame.as_entire_binding()),
+            ("picture", work.picture.as_entire_binding()),
+            ("background", background.as_entire_binding()),
+        ];
+        let mut encoder = gpu.encoder("display");
+        display.record(gpu, &mut encoder, &resources, view);
+        gpu.queue.submit([encoder.finish()]);
+        self.display = Some((format, display));
         Ok(())
     }
 

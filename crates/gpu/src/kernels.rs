@@ -47,6 +47,12 @@ impl Variant {
     }
 }
 
+/// What a program and what it binds are, in words.
+pub(crate) fn describe(file: &str, variant: &Variant, kernel: &Kernel) -> String {
+    let bindings: Vec<&str> = kernel.bindings().iter().map(|binding| binding.name.as_str()).collect();
+    format!("{}; binds {}", variant.describe(file), bindings.join(", "))
+}
+
 /// All kernels that were built so far. They are small, and building one takes longer than a frame.
 #[derive(Debug, Default)]
 pub(crate) struct Kernels {

@@ -57,7 +57,7 @@ fn centroids_are_in_order() {
         })
         .collect();
     let corners: Vec<[u32; 4]> = mesh.tetrahedra.iter().map(|cell| cell.map(|v| v.0)).collect();
-    let flagged: Vec<[u32; 4]> = corners.iter().map(|&[a, b, c, d]| [a, b, c, d | (a & 1) * NEGATIVE_BIT]).collect();
+    let flagged: Vec<[u32; 4]> = corners.iter().map(|&[a, b, c, d]| [a, b, c, d | ((a & 1) * NEGATIVE_BIT)]).collect();
     let cells = listed(corners.len());
     let views = [0.1, 1.0, 10.0, 1e3, 1e6, 1e30, 3e38].map(|far| Some(DVec3::new(0.3, -0.2, -0.9) * far));
     for view in views.into_iter().chain([None]) {

@@ -29,7 +29,6 @@ pub(crate) struct MeshPart {
     pub(crate) ranges: Buffer,
     /// The first of them in the mesh and how many, for shaders.
     pub(crate) chunk: Buffer,
-    pub(crate) count: u32,
 }
 
 impl MeshBuffers {
@@ -55,7 +54,6 @@ impl MeshBuffers {
                     cells: gpu.storage_of("cells", cells),
                     ranges: gpu.storage_of("ranges", ranges),
                     chunk: gpu.uniform_of("chunk", &[(part * most) as u32, cells.len() as u32, 0, 0]),
-                    count: cells.len() as u32,
                 }
             });
         Ok(Self {

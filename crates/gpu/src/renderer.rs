@@ -3,7 +3,7 @@
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
 use glam::DVec3;
-use tetrascope_mesh::{CellId, ChordLengths, Frame as MeshFrame, TetMesh, VertexId, segment_lengths};
+use tetrascope_mesh::{ChordLengths, Frame as MeshFrame, TetMesh, VertexId, segment_lengths};
 use tetrascope_order::{Cells, MeshVisibility};
 use tetrascope_scene::{Plan, Progress, Rendered, check_scalars};
 
@@ -101,6 +101,27 @@ impl GpuRenderer {
         self.gpu.attempt(frame, || Drawing::new(self, plan, progress)?.draw(&mut kept))
     }
 
+    /// Draws a picture, and shows it over the plan's background in a view of the picture's size, without a way through the host.
+    ///
+    /// - `format`: the view's; one that turns linear light into sRGB
+    ///
+    /// # Errors
+    /// Those of [`Self::render`], and [`GpuError::NotWhole`] for a picture that this device draws in parts.
+    pub fn show(
+        &self,
+        plan: &Plan,
+        progress: &dyn Progress,
+        view: &wgpu::TextureView,
+        format: wgpu::TextureFormat,
+    ) -> Result<Rendered, GpuError> {
+        let rendered = self.render(plan, progress)?;
+        let mut kept = self.kept.lock().unwrap_or_else(PoisonError::into_inner);
+        let frame = kept.frame;
+        let size = [plan.view.width, plan.view.height];
+        self.gpu.attempt(frame, || kept.show(&self.gpu, size, plan.background, view, format))?;
+        Ok(rendered)
+    }
+
     /// The device.
     pub fn gpu(&self) -> &Arc<Gpu> {
         &self.gpu
@@ -109,11 +130,6 @@ impl GpuRenderer {
     /// The mesh as visibility orders see it.
     pub(crate) fn cells(&self) -> Cells<'_> {
         Cells { positions: &self.positions, tetrahedra: &self.tetrahedra }
-    }
-
-    /// All cells, as they come.
-    pub(crate) fn all_cells(&self) -> Vec<CellId> {
-        (0..self.mesh.cell_count).map(CellId).collect()
     }
 
     /// Lengths of segments, world length; computed when first asked for. `None` if no cell has a volume.

@@ -7,6 +7,7 @@ use tetrascope_scene::{BufferRole, DeviceBuffer, DeviceReport, GpuPath, Stage};
 use crate::draw::{Drawing, Means, Path};
 use crate::frame::{ordered, sorted};
 use crate::kept::Kept;
+use crate::kernels::{Variant, describe};
 use crate::sorting::InPixels;
 
 impl Drawing<'_> {
@@ -43,7 +44,16 @@ impl Drawing<'_> {
         let pipelines = match self.path {
             Path::Compute => {
                 let programs = ordered(means, sort).into_iter().chain(sorted(means, sort));
-                programs.map(|(file, variant)| variant.describe(file)).collect()
+                let described = |(file, variant): (&str, Variant)| match renderer.kernels.get(
+                    &renderer.gpu,
+                    file,
+                    "draw",
+                    &variant,
+                ) {
+                    Ok(kernel) => describe(file, &variant, &kernel),
+                    Err(_) => variant.describe(file),
+                };
+                programs.map(described).collect()
             }
             Path::Triangles(_) => vec![means.variant.describe("triangles/draw.wgsl")],
         };

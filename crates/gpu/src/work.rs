@@ -105,6 +105,11 @@ impl Work {
         self.cells >= cells && self.part.extent == part.extent && self.whole == whole
     }
 
+    /// Width and height of its picture.
+    pub(crate) fn extent(&self) -> [u32; 2] {
+        self.part.extent
+    }
+
     /// Bytes on the device.
     pub(crate) fn bytes(&self) -> [(&'static str, u64); 2] {
         [("cells in order", self.drawn.size()), ("picture", self.picture.size() + self.read_back.size())]
