@@ -8,6 +8,7 @@ use crate::draw::{Drawing, Means, Path};
 use crate::frame::{ordered, sorted};
 use crate::kept::Kept;
 use crate::sorting::InPixels;
+use crate::triangles::LightAt;
 
 impl Drawing<'_> {
     /// What drew the picture, with which memory, and how long it took.
@@ -45,7 +46,7 @@ impl Drawing<'_> {
                 let programs = ordered(means, sort).into_iter().chain(sorted(means, sort));
                 programs.map(|(file, variant)| variant.describe(file)).collect()
             }
-            Path::Triangles(_) => vec![means.variant.describe("triangles/draw.wgsl")],
+            Path::Triangles(_) => vec![means.variant.describe(LightAt::of(self.plan).file())],
         };
         DeviceReport {
             name: description.name.clone(),
