@@ -22,6 +22,7 @@ sources![
     "effects/carry.wgsl",
     "effects/cell_corners.wgsl",
     "effects/constant_gradient.wgsl",
+    "effects/face_ranks.wgsl",
     "effects/gradient_cell.wgsl",
     "effects/gradient_mixed.wgsl",
     "effects/gradient_points.wgsl",
