@@ -24,7 +24,7 @@ pub(crate) fn most_in_block(gpu: &Gpu, path: Path, cells: u32) -> u32 {
     let most = if gpu.description().is_software() { MOST_IN_SOFTWARE } else { MOST_IN_BLOCK };
     let most = if path == Path::Compute { most } else { most.min(MOST_OF_TRIANGLES) };
     match path {
-        Path::Triangles(TargetBits::Sixteen) => most.min(cells.div_ceil(BLOCKS_OF_16_BITS).max(MOST_IN_SOFTWARE)),
+        Path::Triangles(TargetBits::Sixteen) => most.min(cells.div_ceil(BLOCKS_OF_16_BITS).max(LEAST_IN_BLOCK)),
         _ => most,
     }
 }
