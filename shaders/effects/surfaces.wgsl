@@ -2,14 +2,14 @@
 // the surfaces, and all composed along the ray. Nothing is extracted.
 //
 // Which surfaces are crossed follows from ranks: on which side of each surface the two ends lie. With CARRIES_JOINTS the rank at the
-// entry is handed on from the cell before, and each surface is met exactly once. Without, as where cells are drawn as triangles one by
-// one, a surface that lies within what rounding does to the scalars at a face is met in both cells of it: none is ever missed, and a
-// transparent one may count twice in a pixel whose ray crosses it there, which is rare and shows as a single darker pixel.
+// entry is handed on from the cell before. Without, as where cells are drawn as triangles one by one, ends within rounding of a surface
+// ask the faces, which are common to two cells. Either way each surface is met exactly once.
 
 #use cell/cell.wgsl
 #use integrate/light.wgsl
 #use effects/carry.wgsl
 #use effects/cell_corners.wgsl
+#use effects/face_ranks.wgsl
 #use effects/over.wgsl
 #use effects/surface_set.wgsl
 #use <volume>
@@ -62,10 +62,19 @@ fn shade(
         let front = carry_joint(joint, sample.depth, joint_slack(corners), all) - f32(near.x);
         ranks = vec2<u32>(u32(clamp(front, 0.0, f32(near.y))), own.y);
     } else {
-        // Half of it: a surface in cells of that one scalar lies a whole one below.
-        let widened = vec2<f32>(low - 0.5 * tolerance, high + 0.5 * tolerance);
-        let ends = surface_ranks(near, cell.reference, tolerance, widened);
-        ranks = select(ends.yx, ends, sample.front <= sample.back);
+        let ends = vec2<f32>(sample.front, sample.back);
+        ranks = surface_ranks(near, cell.reference, tolerance, ends);
+        // Values lie a tolerance low already: clear of them is what lies half a tolerance beyond the value moved and not moved.
+        let least = surface_ranks(near, cell.reference, tolerance, ends - 1.5 * tolerance);
+        let most = surface_ranks(near, cell.reference, tolerance, ends + 0.5 * tolerance);
+        if any(least != most) {
+            let pixel = vec2<i32>(round(sample.center + 0.5 * vec2<f32>(frame.size) - 0.5));
+            let of_faces = face_ranks(corners, near, pixel);
+            let is_own = least == most;
+            ranks.x = select(of_faces.enter, ranks.x, is_own.x || !of_faces.enters);
+            ranks.y = select(of_faces.leave, ranks.y, is_own.y);
+            ranks.y = select(ranks.x, ranks.y, of_faces.meets);
+        }
     }
 
     let rises = ranks.x < ranks.y;

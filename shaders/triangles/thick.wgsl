@@ -7,13 +7,12 @@
 #use integrate/light.wgsl
 #use triangles/fan.wgsl
 #use triangles/screen.wgsl
-#use triangles/varying.wgsl
 #use integrate/pieces.wgsl
 #use <model>
 
 const HAS_COLOR: bool = MODEL_EMITS && !MODEL_COLOR_IS_PER_LENGTH;
 
-fn carry(corners: Corners, record: vec4<u32>, at: FanVertex, handed: ptr<function, Varying>) {
+fn light_at(corners: Corners, at: FanVertex) -> vec4<f32> {
     let low = lowest(corners.scalars);
     let high = highest(corners.scalars);
     let found = find_pieces(corners.scalar, low, high);
@@ -24,8 +23,7 @@ fn carry(corners: Corners, record: vec4<u32>, at: FanVertex, handed: ptr<functio
         if HAS_COLOR {
             color = transfer_at(cell, scalar_of(at.front, at.nearness)).color;
         }
-        (*handed).attributes = vec4<f32>(color, 0.0);
-        return;
+        return vec4<f32>(color, 0.0);
     }
     let leave = at.nearness - at.difference;
     let front = transfer_at(cell, scalar_of(at.front, at.nearness));
@@ -38,7 +36,7 @@ fn carry(corners: Corners, record: vec4<u32>, at: FanVertex, handed: ptr<functio
     }
     let center = screen_place(at.point, at.beside) + pixel_center(vec2<i32>(frame.columns.x, frame.rows.x));
     let light = model_constant(extinction, color, chord * ray_stretch(center));
-    (*handed).attributes = vec4<f32>(select(light.rgb, color, HAS_COLOR), 1.0 - light.transmittance);
+    return vec4<f32>(select(light.rgb, color, HAS_COLOR), 1.0 - light.transmittance);
 }
 
 // The scalar itself.
@@ -46,7 +44,7 @@ fn scalar_of(over: f32, nearness: f32) -> f32 {
     return select(over, over / (1.0 + nearness), frame.is_perspective != 0u);
 }
 
-fn fan_light(handed: Varying, attributes: vec4<f32>, vertices: vec4<u32>, pixel: vec2<i32>) -> Light {
+fn fan_light(attributes: vec4<f32>) -> Light {
     let opacity = clamp(attributes.a, 0.0, 1.0);
     let color = max(attributes.rgb, vec3<f32>());
     return Light(select(color, color * opacity, HAS_COLOR), 1.0 - opacity);

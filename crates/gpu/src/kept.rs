@@ -22,7 +22,7 @@ use crate::renderer::GpuRenderer;
 use crate::scan::{ListKernels, words};
 use crate::sorting::{DeviceOrder, InPixels, MadeOrder, Source};
 use crate::targets::{Display, Target};
-use crate::triangles::{Interpolated, TrianglePath};
+use crate::triangles::{LightAt, TrianglePath};
 use crate::view::Part;
 use crate::work::{BlockPlan, LEAST_IN_BLOCK, Work, most_in_block};
 use crate::{Gpu, GpuError};
@@ -67,7 +67,7 @@ pub(crate) struct TileMemory {
 /// Pipelines of the triangle path, and the target that they draw into.
 #[derive(Debug)]
 pub(crate) struct TriangleMemory {
-    interpolated: Interpolated,
+    light_at: LightAt,
     variant: Variant,
     cells: u32,
     pub(crate) path: TrianglePath,
@@ -494,16 +494,16 @@ impl TriangleMemory {
         cells: u32,
         part: Part,
     ) -> Result<Self, GpuError> {
-        let interpolated = if plan.integration.needs_fan() { Interpolated::Light } else { Interpolated::Rays };
-        let path = TrianglePath::new(gpu, interpolated, &variant.slots, &variant.constants, bits, cells)?;
+        let light_at = LightAt::of(plan);
+        let path = TrianglePath::new(gpu, light_at, &variant.slots, &variant.constants, bits, cells)?;
         let target = Target::new(gpu, part.extent, bits)?;
-        Ok(Self { interpolated, variant: variant.clone(), cells, path, target })
+        Ok(Self { light_at, variant: variant.clone(), cells, path, target })
     }
 
     /// Whether it is what a plan asks for, with room enough.
     fn fits(&self, plan: &Plan, variant: &Variant, bits: TargetBits, cells: u32, part: Part) -> bool {
         let [width, height] = self.target.size();
-        plan.integration.needs_fan() == (self.interpolated == Interpolated::Light)
+        LightAt::of(plan) == self.light_at
             && self.variant == *variant
             && self.target.precision == bits
             && self.cells >= cells

@@ -9,6 +9,7 @@ use crate::frame::{ordered, sorted};
 use crate::kept::Kept;
 use crate::kernels::{Variant, describe};
 use crate::sorting::InPixels;
+use crate::triangles::LightAt;
 
 impl Drawing<'_> {
     /// What drew the picture, with which memory, and how long it took.
@@ -55,7 +56,7 @@ impl Drawing<'_> {
                 };
                 programs.map(described).collect()
             }
-            Path::Triangles(_) => vec![means.variant.describe("triangles/draw.wgsl")],
+            Path::Triangles(_) => vec![means.variant.describe(LightAt::of(self.plan).file())],
         };
         DeviceReport {
             name: description.name.clone(),

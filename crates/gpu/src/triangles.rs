@@ -1,6 +1,6 @@
-//! The triangle path: cells are classified in a compute pass, and their fans blended by hardware, back to front.
+//! The triangle path: cells are classified in a compute pass, and their silhouettes or fans blended by hardware, back to front.
 
-use tetrascope_scene::{Stage, TargetBits};
+use tetrascope_scene::{Plan, Stage, TargetBits};
 use tetrascope_shaders::layout::{GROUP, TILE_SIDE};
 use tetrascope_shaders::{Constant, Program, Slot};
 use wgpu::{BlendComponent, BlendFactor, BlendOperation, BlendState, Buffer, BufferUsages, CommandEncoder};
@@ -10,32 +10,50 @@ use crate::stopwatch::Laps;
 use crate::targets::{Drawing, Target, format_of, most_light};
 use crate::{Gpu, GpuError};
 
-/// Bytes of a fan's record.
-const FAN_BYTES: u64 = 16;
-
-/// What is interpolated over the triangles of a fan.
+/// Where the light of a cell is found.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Interpolated {
-    /// Where rays enter and leave: every pixel integrates along its own.
-    Rays,
-    /// Color and opacity, from the thick vertex: `Integration::Vertex`.
-    Light,
+pub(crate) enum LightAt {
+    /// In every pixel, along its own ray: a cell is a polygon over its silhouette.
+    Pixels,
+    /// At the vertices of a fan, and interpolated: `Integration::Vertex`.
+    Vertices,
 }
 
-impl Interpolated {
-    fn file(self) -> &'static str {
+impl LightAt {
+    pub(crate) fn of(plan: &Plan) -> Self {
+        if plan.integration.needs_fan() { Self::Vertices } else { Self::Pixels }
+    }
+
+    /// The program that draws.
+    pub(crate) fn file(self) -> &'static str {
         match self {
-            Self::Rays => "triangles/rays.wgsl",
-            Self::Light => "triangles/thick.wgsl",
+            Self::Pixels => "triangles/draw_rays.wgsl",
+            Self::Vertices => "triangles/draw_fans.wgsl",
         }
     }
 
-    /// A cell whose nearest point is closer than this share of its farthest has no fan: it reaches the plane of the eye, or nearly, and is
-    /// found ray by ray. Where the fan is what defines the light, as few cells as f32 allows.
+    /// The program that prepares cells, and its entry point.
+    fn preparation(self) -> [&'static str; 2] {
+        match self {
+            Self::Pixels => ["triangles/outlines.wgsl", "outlines_of_block"],
+            Self::Vertices => ["triangles/fans.wgsl", "fans_of_block"],
+        }
+    }
+
+    /// The list of what is prepared, and the bytes of a cell in it.
+    fn list(self) -> (&'static str, u64) {
+        match self {
+            Self::Pixels => ("outlined", 160),
+            Self::Vertices => ("fans", 16),
+        }
+    }
+
+    /// A cell whose nearest point is closer than this share of its farthest has no silhouette: it reaches the plane of the eye, or nearly,
+    /// and is found within a box. Where the fan is what defines the light, as few cells as f32 allows.
     fn near_share(self) -> f32 {
         match self {
-            Self::Rays => 1e-2,
-            Self::Light => 1e-4,
+            Self::Pixels => 1e-2,
+            Self::Vertices => 1e-4,
         }
     }
 }
@@ -50,12 +68,13 @@ const OVER: BlendComponent = BlendComponent {
 /// Pipelines of the triangle path, and its memory on the device.
 #[derive(Debug)]
 pub(crate) struct TrianglePath {
-    fans_kernel: Kernel,
+    light_at: LightAt,
+    prepare: Kernel,
     empty: Kernel,
     accumulate: Kernel,
     drawing: Drawing,
     precision: TargetBits,
-    fans: Buffer,
+    prepared: Buffer,
     arguments: Buffer,
     capacity: u32,
 }
@@ -82,33 +101,36 @@ impl TrianglePath {
     /// [`GpuError::Shader`], and [`GpuError::TooLarge`] for blocks that no binding takes.
     pub(crate) fn new(
         gpu: &Gpu,
-        interpolated: Interpolated,
+        light_at: LightAt,
         slots: &[Slot<'_>],
         constants: &[(&str, Constant)],
         precision: TargetBits,
         capacity: u32,
     ) -> Result<Self, GpuError> {
-        let (needed, limit) = (u64::from(capacity) * FAN_BYTES, gpu.largest_binding());
+        let (list, bytes) = light_at.list();
+        let (needed, limit) = (u64::from(capacity) * bytes, gpu.largest_binding());
         if needed > limit {
             let adapter = gpu.description().name.clone();
-            return Err(GpuError::TooLarge { what: "a block of fans", needed, limit, adapter });
+            return Err(GpuError::TooLarge { what: "a block of triangles", needed, limit, adapter });
         }
         let mut constants = constants.to_vec();
         constants.push(("MOST_LIGHT", Constant::F32(most_light(precision))));
-        constants.push(("NEAR_SHARE", Constant::F32(interpolated.near_share())));
+        constants.push(("NEAR_SHARE", Constant::F32(light_at.near_share())));
         let mut slots = slots.to_vec();
-        slots.extend([("triangle", interpolated.file()), ("pieces", "integrate/pieces.wgsl")]);
-        let fans = Program::compose("triangles/fans.wgsl", &slots, &constants)?;
+        slots.push(("pieces", "integrate/pieces.wgsl"));
+        let [file, entry_point] = light_at.preparation();
+        let prepare = Program::compose(file, &slots, &constants)?;
         let accumulate = Program::compose("triangles/accumulate.wgsl", &slots, &constants)?;
-        let draw = Program::compose("triangles/draw.wgsl", &slots, &constants)?;
+        let draw = Program::compose(light_at.file(), &slots, &constants)?;
         let blend = BlendState { color: OVER, alpha: OVER };
         Ok(Self {
-            fans_kernel: Kernel::new(gpu, &fans, "fans_of_block"),
+            light_at,
+            prepare: Kernel::new(gpu, &prepare, entry_point),
             empty: Kernel::new(gpu, &accumulate, "empty"),
             accumulate: Kernel::new(gpu, &accumulate, "accumulate"),
             drawing: Drawing::new(gpu, &draw, ["vertex", "fragment"], format_of(precision), Some(blend)),
             precision,
-            fans: gpu.storage("fans", needed),
+            prepared: gpu.storage(list, needed),
             arguments: gpu.buffer(
                 "arguments",
                 16,
@@ -140,13 +162,13 @@ impl TrianglePath {
             return;
         }
         let mut all = resources.to_vec();
-        all.push(("fans", self.fans.as_entire_binding()));
+        all.push((self.light_at.list().0, self.prepared.as_entire_binding()));
         all.push(("arguments", self.arguments.as_entire_binding()));
         all.push(("blended", wgpu::BindingResource::TextureView(&target.view)));
 
         // A group is there even for no cells: it writes that there is nothing to draw.
         let groups = block.cells.div_ceil(GROUP).max(1);
-        self.fans_kernel.run_alone(encoder, &self.fans_kernel.bind(gpu, &all), groups);
+        self.prepare.run_alone(encoder, &self.prepare.bind(gpu, &all), groups);
         if block.is_first {
             self.over_pixels(encoder, &self.empty, &self.empty.bind(gpu, &all), block.extent);
         }
@@ -174,6 +196,6 @@ impl TrianglePath {
 
     /// Memory that it takes on the device, without targets.
     pub(crate) fn bytes(&self) -> u64 {
-        u64::from(self.capacity) * FAN_BYTES + 16
+        u64::from(self.capacity) * self.light_at.list().1 + 16
     }
 }

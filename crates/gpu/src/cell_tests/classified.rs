@@ -80,8 +80,8 @@ fn cells_are_classified_as_in_f64() {
             // Three products of lengths, and the distance of the eye.
             let reach = if is_perspective { (corner[0] - eye).length() + size } else { 1.0 };
             let rounding = 3e-7 * size * size * reach + 1e-30;
-            for i in 0..4 {
-                let error = (f64::from(told.volumes[order[i]]) - exact.volumes.a[i]).abs();
+            for (place, volume) in order.iter().zip(exact.volumes.a) {
+                let error = (f64::from(told.volumes[*place]) - volume).abs();
                 assert!(error <= rounding, "{error} {rounding} {told:?} {exact:?}");
             }
             let is_clear = exact.volumes.a.iter().all(|a| *a == 0.0 || a.abs() > rounding)

@@ -121,7 +121,7 @@ impl Twin {
                 return None;
             }
         }
-        if !(enter < leave) {
+        if enter >= leave || enter.is_nan() || leave.is_nan() {
             return None;
         }
         let [low, high] = scalars.iter().fold([0.0; 2], |[low, high], &s| [f64::min(low, s), f64::max(high, s)]);

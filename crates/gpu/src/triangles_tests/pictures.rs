@@ -12,7 +12,7 @@ use tetrascope_scene::TargetBits;
 use crate::stopwatch::Laps;
 use crate::targets::{Display, Target, best_target, blends, texture};
 use crate::testing::{checked, contents, gpu};
-use crate::triangles::{BlockToDraw, Interpolated, TrianglePath};
+use crate::triangles::{BlockToDraw, LightAt, TrianglePath};
 use crate::view::Part;
 
 const SLOTS: &[Slot<'static>] = &[
@@ -22,9 +22,9 @@ const SLOTS: &[Slot<'static>] = &[
 ];
 
 /// A picture of a scene in blocks of `cells` cells, back to front.
-fn draw(gpu: &Gpu, scene: &Scene, interpolated: Interpolated, precision: TargetBits, cells: u32) -> Vec<[f32; 4]> {
+fn draw(gpu: &Gpu, scene: &Scene, light_at: LightAt, precision: TargetBits, cells: u32) -> Vec<[f32; 4]> {
     checked(gpu, || {
-        let path = TrianglePath::new(gpu, interpolated, SLOTS, &[], precision, cells).unwrap();
+        let path = TrianglePath::new(gpu, light_at, SLOTS, &[], precision, cells).unwrap();
         let target = Target::new(gpu, [SIZE; 2], precision).unwrap();
         let uploaded = Uploaded::new(gpu, scene);
         let mut encoder = gpu.encoder("test");
@@ -73,7 +73,7 @@ fn check_pictures(scene: &Scene, what: &str) {
             continue;
         }
         for cells in [100, 2] {
-            let picture = draw(&gpu, scene, Interpolated::Rays, precision, cells);
+            let picture = draw(&gpu, scene, LightAt::Pixels, precision, cells);
             let lit = picture.iter().filter(|pixel| pixel[3] < 0.99).count();
             let worst = worst(scene, &picture);
             println!("{what}, {precision:?}, blocks of {cells}: {worst:e}, {lit} pixels");
@@ -106,7 +106,7 @@ fn pictures_of_many_layers_agree_with_rays() {
         [(TargetBits::ThirtyTwo, 500, 3e-4), (TargetBits::Sixteen, 500, 1e-2), (TargetBits::Sixteen, 64, 1e-2)]
     {
         if blends(&gpu, precision) {
-            let worst = worst(&scene, &draw(&gpu, &scene, Interpolated::Rays, precision, cells));
+            let worst = worst(&scene, &draw(&gpu, &scene, LightAt::Pixels, precision, cells));
             println!("{precision:?}, blocks of {cells}: {worst:e}");
             assert!(worst < tolerance, "{precision:?}: {worst}");
         }
@@ -116,14 +116,13 @@ fn pictures_of_many_layers_agree_with_rays() {
 #[test]
 fn all_variants_are_programs() {
     let mut count = 0;
-    for triangle in ["triangles/rays.wgsl", "triangles/thick.wgsl"] {
+    for light_at in [LightAt::Pixels, LightAt::Vertices] {
         for effects in ["none", "lit", "surfaces", "maps"].map(|name| format!("effects/{name}.wgsl")) {
             for volume in ["exact", "average", "ends", "partial", "cumulative", "table_2d", "table_3d"] {
                 let volume = format!("integrate/{volume}.wgsl");
                 let mut slots = SLOTS.to_vec();
                 slots.retain(|(slot, _)| !["effects", "volume"].contains(slot));
                 slots.extend([
-                    ("triangle", triangle),
                     ("pieces", "integrate/pieces.wgsl"),
                     ("effects", &effects),
                     ("volume", &volume),
@@ -139,7 +138,7 @@ fn all_variants_are_programs() {
                     ("MOST_LIGHT", Constant::F32(1e30)),
                     ("NEAR_SHARE", Constant::F32(1e-2)),
                 ]);
-                let program = Program::compose("triangles/draw.wgsl", &slots, &constants).unwrap();
+                let program = Program::compose(light_at.file(), &slots, &constants).unwrap();
                 for stage in ["vertex", "fragment"] {
                     let bindings = program.bindings(stage);
                     let storage = bindings.iter().filter(|b| matches!(b.kind, BindingKind::Storage(_)));
@@ -182,7 +181,7 @@ fn color_at_the_thick_vertex_is_interpolated() {
     let Some(gpu) = gpu() else { return };
     let scene = layers(DVec3::new(0.02, 0.03, -1.0), 0.01, true, -0.8, 0.2, 1);
     let precision = best_target(&gpu);
-    let picture = draw(&gpu, &scene, Interpolated::Light, precision, 10);
+    let picture = draw(&gpu, &scene, LightAt::Vertices, precision, 10);
     let (projected, order) = scene.project(scene.cells[0]);
     let thick = projected.thick.unwrap();
     let (corners, scalars) = scene.corners(scene.cells[0]);

@@ -1,15 +1,16 @@
 // Draws the cells of a draw block, back to front: instance i is the i-th cell from the back, 12 vertices its fan of up to four triangles or
-// a box around it. One invocation of `fragment` gives the light of one cell at one pixel, color (linear, premultiplied) and opacity, for
-// blending with what lies behind: ONE, ONE_MINUS_SRC_ALPHA.
+// a box around it. Light is found at the vertices and interpolated: one invocation of `fragment` gives that of one cell at one pixel, color
+// (linear, premultiplied) and opacity, for blending with what lies behind: ONE, ONE_MINUS_SRC_ALPHA.
 //
 // In: frame, points, drawn, totals, block, fans (made by triangles/fans.wgsl), and what the light of a cell takes.
 //
 // Rasterizers move vertices onto a lattice of 1/16 to 1/256 of a pixel. So that this moves no attribute, the place on the screen is
 // interpolated too: where it differs from the pixel's center, attributes are carried over by their slopes.
 //
-// <effects>: the light of a cell. <triangle>: what is interpolated, and the light of it.
+// <effects>: the light of a cell that has no fan.
 
 #use include/frame.wgsl
+#use triangles/assembled.wgsl
 #use triangles/list.wgsl
 #use triangles/fan.wgsl
 #use triangles/screen.wgsl
@@ -18,8 +19,8 @@
 #use cell/sample.wgsl
 #use cell/optics.wgsl
 #use cell/outline.wgsl
+#use triangles/thick.wgsl
 #use <effects>
-#use <triangle>
 
 @group(0) @binding(40) var<storage, read> fans: array<vec4<u32>>;
 
@@ -51,7 +52,7 @@ fn vertex(@builtin(vertex_index) number: u32, @builtin(instance_index) instance:
     let anchor = round(screen_place(corners.points[0], vec3<f32>()));
     handed.anchor = vec2<i32>(anchor) + vec2<i32>(frame.columns.x, frame.rows.x);
     handed.place = on_screen - anchor;
-    carry(corners, record, at, &handed);
+    handed.attributes = light_at(corners, at);
     return handed;
 }
 
@@ -76,10 +77,10 @@ fn fragment(handed: Varying) -> @location(0) vec4<f32> {
     let moved = vec2<f32>(pixel - handed.anchor) - handed.place;
     let back = clamp(moved, vec2<f32>(-MOST_MOVED), vec2<f32>(MOST_MOVED));
     let attributes = handed.attributes + back.x * per_column + back.y * per_row;
-    let vertices = vertices_of(handed.cell & ~IS_BOX);
     if (handed.cell & IS_BOX) == 0u {
-        return assembled(fan_light(handed, attributes, vertices, pixel));
+        return assembled(fan_light(attributes));
     }
+    let vertices = vertices_of(handed.cell & ~IS_BOX);
     let cell = set_up(vertices);
     let found = sample(cell, pixel);
     if !found.covered {
@@ -88,9 +89,4 @@ fn fragment(handed: Varying) -> @location(0) vec4<f32> {
     var joint = no_joint();
     var crossings = 0u;
     return assembled(shade(cell, vertices, optics_of(cell), found, &joint, &crossings));
-}
-
-// Light as the blending takes it; a float of 16 bits ends at MOST_LIGHT.
-fn assembled(light: Light) -> vec4<f32> {
-    return vec4<f32>(min(light.rgb, vec3<f32>(MOST_LIGHT)), 1.0 - light.transmittance);
 }
