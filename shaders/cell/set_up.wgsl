@@ -6,6 +6,8 @@
 // A face counts as steep when its plane, over the cell's pixels, runs through this many times the cell's own range of nearness: rounding
 // then takes some 2e-6 of the cell's chord, and the cell goes by its corners instead.
 const STEEP: f32 = 24.0;
+// The share of its terms below which a face's distance from the eye counts as cancelled.
+const CANCELS: f32 = 0.125;
 // A cell whose nearest point is closer than this share of its farthest goes by its corners: it reaches the plane of the eye, or nearly.
 const NEAR: f32 = 1e-2;
 

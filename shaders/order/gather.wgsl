@@ -3,13 +3,7 @@
 // One invocation fetches one cell, if it is in the part of the mesh that `cells` holds. RING_BIT moves from its number to its third vertex.
 
 #use include/list.wgsl
-
-struct Block {
-    first: u32,
-    count: u32,
-    capacity: u32,
-    unused: u32,
-}
+#use include/block.wgsl
 
 // First cell of the part that `cells` holds, and how many.
 @group(0) @binding(80) var<uniform> chunk: vec4<u32>;
@@ -17,7 +11,6 @@ struct Block {
 @group(0) @binding(9) var<storage, read> order: array<u32>;
 @group(0) @binding(10) var<storage, read_write> drawn: array<vec4<u32>>;
 @group(0) @binding(18) var<storage, read> totals: array<u32>;
-@group(0) @binding(19) var<uniform> block: Block;
 
 @compute @workgroup_size(GROUP)
 fn gather(

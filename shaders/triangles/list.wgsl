@@ -3,17 +3,10 @@
 // totals: 0 the cells that are drawn in the frame. block: places of the order that are drawn now. drawn: their vertices, front to back.
 
 #use include/points.wgsl
-
-struct Block {
-    first: u32,
-    count: u32,
-    capacity: u32,
-    unused: u32,
-}
+#use include/block.wgsl
 
 @group(0) @binding(10) var<storage, read> drawn: array<vec4<u32>>;
 @group(0) @binding(18) var<storage, read> totals: array<u32>;
-@group(0) @binding(19) var<uniform> block: Block;
 
 // How many cells of the block are there: the last block has fewer.
 fn cells_of_block() -> u32 {

@@ -75,6 +75,6 @@ mod tests {
             assert!(covered.iter().all(|count| *count == 1), "{size:?} {parts:?}");
         }
         assert_eq!(parts([512, 512], 1 << 27, 512).len(), 1);
-        assert_eq!(parts([512, 512], 1 << 27, 511).len(), 2);
+        assert_eq!(parts([512, 512], 1 << 27, 511).len(), 4);
     }
 }

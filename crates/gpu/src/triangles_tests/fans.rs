@@ -158,8 +158,8 @@ fn fans_of_degenerate_cells() {
         check_fans(&scene, "grid");
         // The same, but for a step of the lattice.
         for point in &mut scene.points {
-            for axis in 0..3 {
-                point[axis] += random.within(-1.4, 1.4).round() as i32;
+            for coordinate in &mut point[..3] {
+                *coordinate += random.within(-1.4, 1.4).round() as i32;
             }
         }
         let cells = std::mem::take(&mut scene.cells);
