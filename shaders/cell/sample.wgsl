@@ -85,7 +85,12 @@ fn try_face(ends: ptr<function, Ends>, pq: Side, qr: Side, pr: Side, p: vec2<f32
     if !(sum > 0.0) {
         return;
     }
-    let at = (p * qr.size + q * pr.size + r * pq.size) / sum;
+    // From the corner that counts most: what the others count is then at most a half, and rounding of it with it.
+    let weights = vec3<f32>(qr.size, pr.size, pq.size) / sum;
+    let is_p = weights.x >= weights.y && weights.x >= weights.z;
+    let is_q = !is_p && weights.y >= weights.z;
+    let base = select(select(r, q, is_q), p, is_p);
+    let at = base + ((p - base) * weights.x + (q - base) * weights.y + (r - base) * weights.z);
     if (*ends).count == 0u {
         (*ends).enter = at;
         (*ends).leave = at;

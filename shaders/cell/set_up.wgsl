@@ -6,8 +6,6 @@
 // A face counts as steep when its plane, over the cell's pixels, runs through this many times the cell's own range of nearness: rounding
 // then takes some 2e-6 of the cell's chord, and the cell goes by its corners instead.
 const STEEP: f32 = 24.0;
-// The share of its terms below which a face's distance from the eye counts as cancelled.
-const CANCELS: f32 = 0.125;
 // A cell whose nearest point is closer than this share of its farthest goes by its corners: it reaches the plane of the eye, or nearly.
 const NEAR: f32 = 1e-2;
 
@@ -15,15 +13,6 @@ struct Planes {
     faces: array<vec4<i32>, 4>,
     // Entry faces; 0 if one of the faces is too steep.
     entry_count: u32,
-}
-
-// The cross product of the first two edges of a face, of which the third is the difference; from the two shorter ones, since rounding goes
-// with the product of their lengths: in a needle the two long ones are next to parallel.
-fn normal_of(pq: vec3<f32>, pr: vec3<f32>, qr: vec3<f32>) -> vec3<f32> {
-    let longest = max(dot(pq, pq), max(dot(pr, pr), dot(qr, qr)));
-    let first = select(pq, pr, dot(pq, pq) == longest);
-    let second = select(pr, qr, dot(qr, qr) < longest);
-    return cross(first, second);
 }
 
 fn set_up(vertices: vec4<u32>) -> Cell {
@@ -56,13 +45,10 @@ fn set_up_within(vertices: vec4<u32>, box: vec4<i32>) -> Cell {
     let ac = vec3<f32>(c.xyz - a.xyz) * LATTICE_STEP;
     let ad = vec3<f32>(d.xyz - a.xyz) * LATTICE_STEP;
     let outward = select(1.0, -1.0, (vertices.w & NEGATIVE_BIT) != 0u);
-    let bc = vec3<f32>(c.xyz - b.xyz) * LATTICE_STEP;
-    let bd = vec3<f32>(d.xyz - b.xyz) * LATTICE_STEP;
-    let cd = vec3<f32>(d.xyz - c.xyz) * LATTICE_STEP;
-    let n1 = -outward * normal_of(ac, ad, cd);
-    let n2 = outward * normal_of(ab, ad, bd);
-    let n3 = -outward * normal_of(ab, ac, bc);
-    let n0 = outward * normal_of(bc, bd, cd);
+    let n1 = -outward * cross(ac, ad);
+    let n2 = outward * cross(ab, ad);
+    let n3 = -outward * cross(ab, ac);
+    let n0 = outward * cross(ac - ab, ad - ab);
 
     // The reference: on the ray of the middle pixel, at the corners' mean depth.
     let middle = 0.25 * (ab.z + ac.z + ad.z);

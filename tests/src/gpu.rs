@@ -20,7 +20,7 @@ pub fn adapter() -> String {
 pub fn gpu(test: &str) -> Option<Arc<Gpu>> {
     static SHARED: OnceLock<Result<Arc<Gpu>, String>> = OnceLock::new();
     let opened = SHARED.get_or_init(|| {
-        let choice = AdapterChoice { name: Some(adapter()), default_limits: true };
+        let choice = AdapterChoice { name: Some(adapter()), default_limits: true, ..AdapterChoice::default() };
         Gpu::open(&choice).map(Arc::new).map_err(|error| error.to_string())
     });
     match opened {

@@ -10,6 +10,9 @@ use crate::GpuError;
 /// What is used where an adapter has it, and never needed.
 const WELCOME: Features = Features::TIMESTAMP_QUERY.union(Features::FLOAT32_BLENDABLE);
 
+/// Bytes that a choice may limit bindings to, at least.
+const LEAST_BINDING: u64 = 1 << 16;
+
 /// An adapter, as it calls itself.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct AdapterDescription {
@@ -47,6 +50,8 @@ pub struct AdapterChoice {
     pub name: Option<String>,
     /// Asks for no more than every browser gives, whatever the adapter has.
     pub default_limits: bool,
+    /// Binds no more bytes at once, whatever the device takes: larger meshes and pictures are then drawn in parts. At least 64 KiB.
+    pub largest_binding: Option<u64>,
 }
 
 /// An open device. Everything that is drawn with it shares it.
@@ -59,6 +64,8 @@ pub struct Gpu {
     lost: Arc<Mutex<Option<String>>>,
     /// Bytes of the buffers that the attempt under way asked for.
     asked: AtomicU64,
+    /// Bytes of one binding, at most.
+    most: u64,
 }
 
 /// An instance that reaches whatever there is, without a window.
@@ -135,13 +142,13 @@ impl Gpu {
                 Some(first) => format!("\"{}\" has no compute programs", first.name),
             },
         })?;
-        Self::open_adapter(&adapters[place], choice.default_limits)
+        Self::open_adapter(&adapters[place], choice)
     }
 
-    fn open_adapter(adapter: &Adapter, default_limits: bool) -> Result<Self, GpuError> {
+    fn open_adapter(adapter: &Adapter, choice: &AdapterChoice) -> Result<Self, GpuError> {
         let description = describe(adapter);
         let mut limits = Limits::default();
-        if !default_limits {
+        if !choice.default_limits {
             let most = adapter.limits();
             limits.max_buffer_size = most.max_buffer_size;
             limits.max_storage_buffer_binding_size = most.max_storage_buffer_binding_size;
@@ -160,7 +167,10 @@ impl Gpu {
         device.set_device_lost_callback(move |reason, message| {
             *told.lock().unwrap_or_else(PoisonError::into_inner) = Some(format!("{reason:?}, {message}"));
         });
-        Ok(Self { device, queue, description, lost, asked: AtomicU64::new(0) })
+        let limits = device.limits();
+        let taken = limits.max_storage_buffer_binding_size.min(limits.max_buffer_size);
+        let most = choice.largest_binding.map_or(taken, |most| most.max(LEAST_BINDING).min(taken));
+        Ok(Self { device, queue, description, lost, asked: AtomicU64::new(0), most })
     }
 
     /// What it is.
@@ -210,8 +220,7 @@ impl Gpu {
 
     /// Bytes that one binding may have on this device.
     pub(crate) fn largest_binding(&self) -> u64 {
-        let limits = self.device.limits();
-        limits.max_storage_buffer_binding_size.min(limits.max_buffer_size)
+        self.most
     }
 }
 

@@ -33,6 +33,17 @@ const KEPT_LOOKUPS: usize = 2;
 /// Words of `totals`.
 pub(crate) const TOTALS: usize = 8;
 
+/// What is kept, to be compared.
+#[cfg(test)]
+#[derive(Debug)]
+pub(crate) struct KeptBuffers {
+    pub(crate) permutation: Option<Buffer>,
+    pub(crate) order: Option<Buffer>,
+    /// Where they are on the host.
+    pub(crate) lookups: Option<*const Lookups>,
+    pub(crate) kernels: usize,
+}
+
 /// What goes on from frame to frame.
 #[derive(Debug, Default)]
 pub(crate) struct Kept {
@@ -366,6 +377,16 @@ impl Kept {
             }
         }
         Ok(())
+    }
+
+    #[cfg(test)]
+    pub(crate) fn buffers(&self, kernels: usize) -> KeptBuffers {
+        KeptBuffers {
+            permutation: self.made.as_ref().map(|made| made.permutation.clone()),
+            order: self.order.as_ref().map(|order| order.order.clone()),
+            lookups: self.lookups.first().map(Arc::as_ptr),
+            kernels,
+        }
     }
 
     /// Bytes on the device of the order and of a frame.

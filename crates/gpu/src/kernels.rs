@@ -60,6 +60,12 @@ pub(crate) struct Kernels {
 }
 
 impl Kernels {
+    /// How many were built.
+    #[cfg(test)]
+    pub(crate) fn count(&self) -> usize {
+        self.built.lock().unwrap_or_else(PoisonError::into_inner).len()
+    }
+
     /// An entry point of a program in a variant; built when first asked for.
     ///
     /// # Errors

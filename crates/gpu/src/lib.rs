@@ -41,6 +41,8 @@ mod power_functions_tests;
 #[cfg(test)]
 mod radix_tests;
 #[cfg(test)]
+mod renderer_tests;
+#[cfg(test)]
 mod scan_tests;
 #[cfg(test)]
 mod testing;

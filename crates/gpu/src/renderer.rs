@@ -127,6 +127,13 @@ impl GpuRenderer {
         &self.gpu
     }
 
+    /// What is kept from frame to frame, to be compared.
+    #[cfg(test)]
+    pub(crate) fn kept_buffers(&self) -> crate::kept::KeptBuffers {
+        let kept = self.kept.lock().unwrap_or_else(PoisonError::into_inner);
+        kept.buffers(self.kernels.count())
+    }
+
     /// The mesh as visibility orders see it.
     pub(crate) fn cells(&self) -> Cells<'_> {
         Cells { positions: &self.positions, tetrahedra: &self.tetrahedra }

@@ -6,13 +6,18 @@ use bytemuck::Pod;
 
 use crate::{AdapterChoice, Gpu};
 
+/// The name by which it is asked for.
+pub(crate) fn adapter() -> String {
+    std::env::var("TETRASCOPE_TEST_ADAPTER").unwrap_or_else(|_| "vulkan".to_owned())
+}
+
 /// The device, or `None` where there is none: the test then says that it is skipped. With `TETRASCOPE_REQUIRE_GPU` in the environment a
 /// missing device fails it.
 pub(crate) fn gpu() -> Option<Arc<Gpu>> {
     static SHARED: OnceLock<Option<Arc<Gpu>>> = OnceLock::new();
     let gpu = SHARED.get_or_init(|| {
-        let name = std::env::var("TETRASCOPE_TEST_ADAPTER").unwrap_or_else(|_| "vulkan".to_owned());
-        match Gpu::open(&AdapterChoice { name: Some(name), default_limits: true }) {
+        let name = adapter();
+        match Gpu::open(&AdapterChoice { name: Some(name), default_limits: true, ..AdapterChoice::default() }) {
             Ok(gpu) => Some(Arc::new(gpu)),
             Err(error) if std::env::var_os("TETRASCOPE_REQUIRE_GPU").is_some() => panic!("{error}"),
             Err(error) => {

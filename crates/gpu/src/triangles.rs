@@ -10,6 +10,9 @@ use crate::stopwatch::Laps;
 use crate::targets::{Drawing, Target, format_of, most_light};
 use crate::{Gpu, GpuError};
 
+/// Bytes of what is drawn of a cell, at most.
+pub(crate) const LARGEST_RECORD: u64 = 160;
+
 /// Where the light of a cell is found.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum LightAt {
@@ -43,7 +46,7 @@ impl LightAt {
     /// The list of what is prepared, and the bytes of a cell in it.
     fn list(self) -> (&'static str, u64) {
         match self {
-            Self::Pixels => ("outlined", 160),
+            Self::Pixels => ("outlined", LARGEST_RECORD),
             Self::Vertices => ("fans", 16),
         }
     }

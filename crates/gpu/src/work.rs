@@ -8,12 +8,11 @@ use crate::draw::Path;
 use crate::kept::TOTALS;
 use crate::part::{picture_bytes, sorted_picture_bytes};
 use crate::stopwatch::DeviceStopwatch;
+use crate::triangles::LARGEST_RECORD;
 use crate::view::Part;
 
 /// Most cells of a block: their memory stays below some 200 MB, and a block keeps every device busy.
 pub(crate) const MOST_IN_BLOCK: u32 = 1 << 22;
-/// The same where each is prepared for the hardware's blending: below 128 MiB, which every device binds.
-const MOST_OF_TRIANGLES: u32 = 800_000;
 /// The same for drivers that are programs for processors: Mesa's ends an invocation's loops after 65536 turns together, without a word.
 const MOST_IN_SOFTWARE: u32 = 1 << 14;
 /// Blocks of an order whose cells are blended in 16 bits: each is added up in 32, so that few layers round in 16.
@@ -22,7 +21,9 @@ const BLOCKS_OF_16_BITS: u32 = 64;
 /// Most cells of a block on a device, by a path.
 pub(crate) fn most_in_block(gpu: &Gpu, path: Path, cells: u32) -> u32 {
     let most = if gpu.description().is_software() { MOST_IN_SOFTWARE } else { MOST_IN_BLOCK };
-    let most = if path == Path::Compute { most } else { most.min(MOST_OF_TRIANGLES) };
+    // The list of what is drawn of each cell is one binding.
+    let of_list = (gpu.largest_binding() / LARGEST_RECORD).min(u64::from(most)) as u32;
+    let most = if path == Path::Compute { most } else { of_list };
     match path {
         Path::Triangles(TargetBits::Sixteen) => most.min(cells.div_ceil(BLOCKS_OF_16_BITS).max(LEAST_IN_BLOCK)),
         _ => most,
