@@ -5,8 +5,9 @@
 //! early and nothing is left out: every cell is at least a little opaque in the smooth transfer function.
 //!
 //! The settings are all ways to integrate, or with `--isosurfaces` all ways to draw isosurfaces, beside none. With `--orders` visibility
-//! orders are measured alone, without a picture.
+//! orders are measured alone, without a picture; with `--backend gpu` a graphics card, stage by stage.
 
+mod gpu;
 mod orders;
 
 use std::f64::consts::TAU;
@@ -17,7 +18,7 @@ use glam::DVec3;
 use tetrascope::integrate::{Isosurface, Isosurfaces, Phong, SurfaceShading};
 use tetrascope::scene::{IsosurfaceMethod, IsosurfacePlan, Lighting, Mixing, defaults};
 use tetrascope::{
-    Camera, Counts, CpuRenderer, Integration, OpticalModel, OrderMethod, Plan, Projection, Silent, Stage,
+    Backend, Camera, Counts, CpuRenderer, Integration, OpticalModel, OrderMethod, Plan, Projection, Silent, Stage,
     TransferFunction, View, Volume, VolumeField,
 };
 
@@ -52,6 +53,15 @@ pub(crate) struct Args {
     /// Visibility orders alone; without a mesh on built-in ones of 10⁴ to 5·10⁶ tetrahedra.
     #[arg(long, conflicts_with = "isosurfaces")]
     orders: bool,
+    /// Who draws: cpu or gpu. With gpu without a mesh on built-in ones of 1, 4 and 16 million tetrahedra.
+    #[arg(long, default_value = "cpu", conflicts_with_all = ["isosurfaces", "orders"])]
+    backend: Backend,
+    /// The adapter of --backend gpu: a part of its name, or its number in `tetrascope devices`.
+    #[arg(long)]
+    adapter: Option<String>,
+    /// The largest of the built-in meshes of --backend gpu, million tetrahedra.
+    #[arg(long, default_value_t = 16.0)]
+    most: f64,
     /// Degrees between two frames.
     #[arg(long, default_value_t = 3.0)]
     step: f64,
@@ -98,6 +108,9 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     if args.orders {
         let run = || orders::run(volume.as_ref(), &args.only, args.frames, args.step).map_err(|e| e.to_string());
         return Ok(pool.install(run)?);
+    }
+    if args.backend == Backend::Gpu {
+        return gpu::run(volume.as_ref(), args);
     }
     let volume = match volume {
         Some(volume) => volume,

@@ -34,5 +34,5 @@ fn the_rest_comes_in_order() {
             check(&kept);
         }
     }
-    check(&[NOTHING; 5000]);
+    check(&[NOTHING; 5_000]);
 }

@@ -7,9 +7,9 @@ use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use glam::DVec3;
-use tetrascope::gpu::{AdapterChoice, Gpu, GpuRenderer};
 use tetrascope::mesh::rings_sample;
 use tetrascope::order::{MeshVisibility, OrderMethod};
+use tetrascope::{AdapterChoice, Gpu, GpuRenderer};
 use tetrascope::{
     Backend, Camera, GpuOptions, GpuPath, OpticalModel, Plan, Projection, Rendered, Silent, View, Volume, VolumeField,
 };
@@ -33,18 +33,28 @@ struct Subject {
 
 /// Measures a mesh, or the ladder of built-in ones.
 pub(super) fn run(volume: Option<&Volume>, args: &Args) -> Result<(), Failure> {
-    let choice = AdapterChoice { name: args.adapter.clone(), default_limits: false };
+    let choice = AdapterChoice { name: args.adapter.clone(), ..AdapterChoice::default() };
     let gpu = Arc::new(Gpu::open(&choice)?);
     let about = gpu.description();
     println!("{} ({}, {}, {})", about.name, about.driver, about.backend, about.kind);
     println!(
         "{:>10} {:26} {:>9} {:>24} {:>9} {:>9} {:>9} {:>11}",
-        "tetrahedra", "path, order", "device, ms", "wall, ms (fastest to slowest)", "frames/s", "M tet/s", "M frag", "least MB"
+        "tetrahedra",
+        "path, order",
+        "device, ms",
+        "wall, ms (fastest to slowest)",
+        "frames/s",
+        "M tet/s",
+        "M frag",
+        "least MB"
     );
     match volume {
         Some(volume) => measure(&gpu, volume, args),
         None => {
             for side in LADDER {
+                if 5e-6 * side.pow(3) as f64 > args.most {
+                    break;
+                }
                 measure(&gpu, &Volume::from_dataset(rings_sample(side), "built-in sample")?, args)?;
             }
             Ok(())
@@ -90,7 +100,8 @@ fn measure(gpu: &Arc<Gpu>, volume: &Volume, args: &Args) -> Result<(), Failure> 
             // The first two frames build pipelines and find sizes.
             if frame >= 2 {
                 subject.walls.push(start.elapsed());
-                let stages = rendered.device.as_ref().map(|device| device.stages.iter().map(|(_, time)| *time).sum());
+                let clocked = rendered.device.as_ref().filter(|device| !device.stages.is_empty());
+                let stages = clocked.map(|device| device.stages.iter().map(|(_, time)| *time).sum::<Duration>());
                 subject.devices.extend(stages);
                 subject.last = Some(rendered);
             }
