@@ -13,7 +13,7 @@
 use std::sync::Arc;
 use std::time::Duration;
 
-use tetrascope_order::{CycleRemedy, Guarantee};
+use tetrascope_order::Guarantee;
 use tetrascope_scene::{Counts, GpuPath, OrderReport, Plan, Progress, Rendered, Stage, Stopwatch, TargetBits};
 use tetrascope_shaders::layout::TILE_OPEN;
 use tetrascope_view::{LinearImage, View};
@@ -99,12 +99,9 @@ impl<'a> Drawing<'a> {
     /// Decides what the device is to do.
     ///
     /// # Errors
-    /// [`GpuError::Unsupported`] for what no device path draws.
+    /// [`GpuError::TargetNotBlended`] for a target that the device does not blend.
     pub(crate) fn new(renderer: &'a GpuRenderer, plan: &'a Plan, progress: &'a dyn Progress) -> Result<Self, GpuError> {
         let path = choose_path(renderer, plan)?;
-        if plan.cycles == CycleRemedy::Cut {
-            return Err(GpuError::CannotCut);
-        }
         let view = plan.view.in_frame(renderer.frame.origin, renderer.frame.scale);
         Ok(Self { renderer, plan, progress, view, path, source: Source::of(plan.order), power: None })
     }
@@ -227,7 +224,6 @@ fn choose_path(renderer: &GpuRenderer, plan: &Plan) -> Result<Path, GpuError> {
     let needs_fan = plan.integration.needs_fan();
     let path = plan.gpu.path.unwrap_or(if needs_fan { GpuPath::Triangles } else { GpuPath::Compute });
     match path {
-        GpuPath::Compute if needs_fan => Err(GpuError::NeedsTriangles { integration: plan.integration }),
         GpuPath::Compute => Ok(Path::Compute),
         GpuPath::Triangles => {
             let best = best_target(&renderer.gpu);

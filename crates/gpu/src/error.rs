@@ -1,6 +1,6 @@
 //! Why a picture was not drawn.
 
-use tetrascope_integrate::{Integration, IsosurfaceError, MethodError};
+use tetrascope_integrate::{IsosurfaceError, MethodError};
 use tetrascope_shaders::ShaderError;
 
 /// Why a picture was not drawn, or no device was opened.
@@ -82,11 +82,6 @@ pub enum GpuError {
     /// Isosurfaces have no possible map.
     #[error(transparent)]
     Isosurfaces(#[from] IsosurfaceError),
-    /// Cells in rings are to be cut, and only whole cells are drawn here.
-    #[error(
-        "cycles \"cut\" leaves pieces of cells, and the back end \"gpu\" draws whole ones; use the remedy \"per-pixel\", or the back end \"cpu\""
-    )]
-    CannotCut,
     /// Triangles are blended in the order in which they come.
     #[error(
         "triangles cannot sort pixel by pixel, which this order or its rings of cells ask for; use the path \"compute\", or another order"
@@ -112,12 +107,6 @@ pub enum GpuError {
     LoopCut {
         /// The adapter.
         adapter: String,
-    },
-    /// The integration is defined on triangles.
-    #[error("\"{integration}\" integrates a fan of triangles; use the path \"triangles\", or another integration")]
-    NeedsTriangles {
-        /// The integration.
-        integration: Integration,
     },
     /// The device does not blend such floats.
     #[error("the device \"{adapter}\" cannot blend into floats of {bits} bits; use 16, or the path \"compute\"")]

@@ -95,6 +95,7 @@ impl GpuRenderer {
     /// [`GpuError`]. [`GpuError::Lost`] and [`GpuError::Driver`] name the frame, counted from 1; nothing of it is given.
     pub fn render(&self, plan: &Plan, progress: &dyn Progress) -> Result<Rendered, GpuError> {
         plan.check()?;
+        plan.check_on_gpu()?;
         let mut kept = self.kept.lock().unwrap_or_else(PoisonError::into_inner);
         kept.frame += 1;
         let frame = kept.frame;

@@ -1,5 +1,6 @@
 //! The device of this crate's tests: a driver of Vulkan, asked for by name.
 
+use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Arc, OnceLock};
 
 use bytemuck::Pod;
@@ -21,11 +22,15 @@ pub(crate) fn gpu() -> Option<Arc<Gpu>> {
             Ok(gpu) => Some(Arc::new(gpu)),
             Err(error) if std::env::var_os("TETRASCOPE_REQUIRE_GPU").is_some() => panic!("{error}"),
             Err(error) => {
-                println!("skipped: {error}");
+                println!("{error}");
                 None
             }
         }
     });
+    if gpu.is_none() {
+        static SKIPPED: AtomicUsize = AtomicUsize::new(0);
+        println!("SKIPPED for want of a GPU: {} tests so far", SKIPPED.fetch_add(1, Ordering::Relaxed) + 1);
+    }
     gpu.clone()
 }
 
