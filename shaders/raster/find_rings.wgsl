@@ -1,12 +1,11 @@
-// Which tiles cells in rings touch: one group looks through the items of one tile.
+// Which tiles cells in rings touch: one group looks through the items of one tile, and marks with RING_BIT where they begin.
 
 #use include/frame.wgsl
 #use include/list.wgsl
 
 @group(0) @binding(10) var<storage, read> drawn: array<vec4<u32>>;
-@group(0) @binding(11) var<storage, read> tile_starts: array<u32>;
+@group(0) @binding(11) var<storage, read_write> tile_starts: array<atomic<u32>>;
 @group(0) @binding(12) var<storage, read> tile_items: array<u32>;
-@group(0) @binding(81) var<storage, read_write> ring_tiles: array<u32>;
 
 var<workgroup> found: atomic<u32>;
 
@@ -19,7 +18,9 @@ fn find_rings(
     let tile = group_number(group, groups);
     let is_tile = tile < frame.tiles.x * frame.tiles.y;
     if is_tile {
-        for (var item = tile_starts[tile] + local; item < tile_starts[tile + 1u]; item += GROUP) {
+        // Others may be marked already.
+        let end = atomicLoad(&tile_starts[tile + 1u]) & ~RING_BIT;
+        for (var item = (atomicLoad(&tile_starts[tile]) & ~RING_BIT) + local; item < end; item += GROUP) {
             if (drawn[tile_items[item]].z & RING_BIT) != 0u {
                 atomicOr(&found, 1u);
             }
@@ -27,6 +28,6 @@ fn find_rings(
     }
     workgroupBarrier();
     if is_tile && local == 0u {
-        ring_tiles[tile] = atomicLoad(&found);
+        atomicOr(&tile_starts[tile], select(0u, RING_BIT, atomicLoad(&found) != 0u));
     }
 }

@@ -25,7 +25,7 @@ fn draw(
     let tiles = frame.tiles.x * frame.tiles.y;
     if local == 0u {
         if tile < tiles && !has_ring(tile) {
-            range_of_tile = vec2<u32>(tile_starts[tile], tile_starts[tile + 1u]);
+            range_of_tile = vec2<u32>(tile_starts[tile], tile_starts[tile + 1u]) & vec2<u32>(~RING_BIT);
         } else {
             range_of_tile = vec2<u32>(0u, 0u);
         }
@@ -44,7 +44,8 @@ fn draw(
     var joint = no_joint();
     var done = Done(0u, 0u, 0u, 0u);
     var is_cut = false;
-    for (var first = range.x; first < range.y; first += BATCH) {
+    var first = range.x;
+    for (; first < range.y; first += BATCH) {
         let count = min(BATCH, range.y - first);
         if local < count {
             stage(local, tile_items[first + local], tile);
@@ -80,6 +81,7 @@ fn draw(
             break;
         }
     }
+    is_cut = is_cut || (is_open && first < range.y);
     if is_seen {
         store_pixel(position, pixel);
     }

@@ -1,8 +1,5 @@
-// Tiles that cells in rings touch.
-
-// For every tile 1 if a cell in a ring touches it, else 0.
-@group(0) @binding(81) var<storage, read> ring_tiles: array<u32>;
+// Tiles that cells in rings touch: `find_rings.wgsl` marked them where their items begin.
 
 fn has_ring(tile: u32) -> bool {
-    return ring_tiles[tile] != 0u;
+    return (tile_starts[tile] & RING_BIT) != 0u;
 }

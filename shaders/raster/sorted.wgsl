@@ -133,7 +133,7 @@ fn draw(
     let tiles = frame.tiles.x * frame.tiles.y;
     if local == 0u {
         if tile < tiles && has_ring(tile) {
-            range_of_tile = vec2<u32>(tile_starts[tile], tile_starts[tile + 1u]);
+            range_of_tile = vec2<u32>(tile_starts[tile], tile_starts[tile + 1u]) & vec2<u32>(~RING_BIT);
         } else {
             range_of_tile = vec2<u32>(0u, 0u);
         }
@@ -175,7 +175,8 @@ fn draw(
     }
     held_count = 0u;
     var is_cut = false;
-    for (var first = range.x; first < range.y; first += BATCH) {
+    var first = range.x;
+    for (; first < range.y; first += BATCH) {
         let count = min(BATCH, range.y - first);
         workgroupBarrier();
         if local < count {
@@ -205,6 +206,7 @@ fn draw(
         }
         is_cut = is_cut || (is_open && slot < count);
     }
+    is_cut = is_cut || (is_open && first < range.y);
     if is_open {
         for (var slot = 0u; slot < held_count && is_pixel_open(); slot++) {
             draw_segment(held[slot].place, position);

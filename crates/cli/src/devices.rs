@@ -26,7 +26,7 @@ fn lines_of(number: usize, adapter: &AdapterDescription) -> [String; 3] {
     let use_of = if adapter.is_capable {
         format!("{blending}, {clock}")
     } else {
-        "cannot draw: it has no compute programs".to_owned()
+        "cannot draw: it lacks what every browser gives".to_owned()
     };
     [
         format!("{number:<4}{} ({}, {})", adapter.name, kind_of(adapter), adapter.backend),

@@ -24,7 +24,7 @@ pub struct AdapterDescription {
     pub backend: String,
     /// `discrete`, `integrated`, `virtual`, `cpu` or `other`.
     pub kind: &'static str,
-    /// Whether it can draw: it has compute programs.
+    /// Whether it can draw: it has what every browser gives.
     pub is_capable: bool,
     /// Whether it blends into 32-bit floats.
     pub blends_32_bits: bool,
@@ -139,7 +139,7 @@ impl Gpu {
         let place = place.ok_or_else(|| GpuError::NoAdapter {
             problem: match descriptions.first() {
                 None => "no driver answers".to_owned(),
-                Some(first) => format!("\"{}\" has no compute programs", first.name),
+                Some(first) => format!("\"{}\" lacks what every browser gives", first.name),
             },
         })?;
         Self::open_adapter(&adapters[place], choice)
@@ -168,7 +168,8 @@ impl Gpu {
             *told.lock().unwrap_or_else(PoisonError::into_inner) = Some(format!("{reason:?}, {message}"));
         });
         let limits = device.limits();
-        let taken = limits.max_storage_buffer_binding_size.min(limits.max_buffer_size);
+        // Whole vectors.
+        let taken = limits.max_storage_buffer_binding_size.min(limits.max_buffer_size) & !15;
         let most = choice.largest_binding.map_or(taken, |most| most.max(LEAST_BINDING).min(taken));
         Ok(Self { device, queue, description, lost, asked: AtomicU64::new(0), most })
     }
@@ -225,8 +226,9 @@ impl Gpu {
 }
 
 fn find(descriptions: &[AdapterDescription], name: &str) -> Option<usize> {
-    if let Ok(number) = name.parse::<usize>() {
-        return (number < descriptions.len()).then_some(number);
+    // A number in the list; a larger one is a part of a name.
+    if let Some(number) = name.parse::<usize>().ok().filter(|number| *number < descriptions.len()) {
+        return Some(number);
     }
     let name = name.to_lowercase();
     let text = |d: &AdapterDescription| format!("{} {} {}", d.backend, d.name, d.driver).to_lowercase();

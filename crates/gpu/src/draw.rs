@@ -13,6 +13,7 @@
 use std::sync::Arc;
 use std::time::Duration;
 
+use tetrascope_integrate::Integration;
 use tetrascope_order::Guarantee;
 use tetrascope_scene::{Counts, GpuPath, OrderReport, Plan, Progress, Rendered, Stage, Stopwatch, TargetBits};
 use tetrascope_shaders::layout::TILE_OPEN;
@@ -114,7 +115,9 @@ impl<'a> Drawing<'a> {
         let mut watch = Stopwatch::start();
         let renderer = self.renderer;
         let mut notes = Vec::new();
-        if renderer.mesh.parts.len() > 1 && matches!(self.source, Source::Centroids | Source::Power) {
+        let power_bytes = u64::from(renderer.mesh.cell_count) * 32;
+        let is_power_large = self.source == Source::Power && power_bytes > renderer.gpu.largest_binding();
+        if is_power_large || renderer.mesh.parts.len() > 1 && matches!(self.source, Source::Centroids | Source::Power) {
             notes.push("the order was made on the CPU: the cells do not fit into one binding".to_owned());
             self.source = Source::Made;
         }
@@ -201,7 +204,12 @@ impl<'a> Drawing<'a> {
         let report = |done, total| self.progress.report(Stage::Tabulate, done, total);
         let lookups = kept.lookups(renderer, plan, &effects, &report)?;
         watch.lap(Stage::Tabulate);
-        let mut slots = vec![("pieces", "integrate/pieces.wgsl")];
+        let pieces = match plan.integration {
+            // Their light is in the table, and bindings are few.
+            Integration::Table2d | Integration::Table3d => "integrate/no_pieces.wgsl",
+            _ => "integrate/pieces.wgsl",
+        };
+        let mut slots = vec![("pieces", pieces)];
         slots.extend(lookups.slots());
         slots.extend(effects.slots());
         let constants = effects.constants(self.path == Path::Compute);

@@ -48,12 +48,12 @@ pub enum GpuError {
     },
     /// The device has no memory left.
     #[error(
-        "the device \"{adapter}\" has not enough memory: about {needed} bytes are needed; use the back end \"cpu\""
+        "the device \"{adapter}\" has not enough memory: {needed} bytes more were asked for; use the back end \"cpu\""
     )]
     OutOfMemory {
         /// The adapter.
         adapter: String,
-        /// Bytes that the mesh and the frame take.
+        /// Bytes of the buffers that were asked for, besides those that are kept.
         needed: u64,
     },
     /// The device went away while a frame was drawn.

@@ -92,10 +92,8 @@ impl Drawing<'_> {
         let group = kernel.bind(&renderer.gpu, resources);
         let mut pass = begin(encoder, laps, Stage::Transform);
         kernel.run(&mut pass, &group, renderer.mesh.point_count.div_ceil(GROUP));
-        if self.path == Path::Compute {
-            let clear = renderer.kernels.get(&renderer.gpu, "raster/clear.wgsl", "clear", &Variant::default())?;
-            clear.run(&mut pass, &clear.bind(&renderer.gpu, resources), pixels.div_ceil(GROUP));
-        }
+        let clear = renderer.kernels.get(&renderer.gpu, "raster/clear.wgsl", "clear", &Variant::default())?;
+        clear.run(&mut pass, &clear.bind(&renderer.gpu, resources), pixels.div_ceil(GROUP));
         Ok(())
     }
 

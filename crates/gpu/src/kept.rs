@@ -70,8 +70,6 @@ pub(crate) struct TileMemory {
     size: BinsSize,
     starts: Buffer,
     items: Buffer,
-    /// For every tile whether cells in rings touch it.
-    rings: Buffer,
     pub(crate) bins: Bins,
 }
 
@@ -118,7 +116,6 @@ impl<'a> Memory<'a> {
             all.extend([
                 ("tile_starts", tiles.starts.as_entire_binding()),
                 ("tile_items", tiles.items.as_entire_binding()),
-                ("ring_tiles", tiles.rings.as_entire_binding()),
             ]);
         }
         all
@@ -145,7 +142,6 @@ impl TileMemory {
     fn new(gpu: &Gpu, order: &OrderMemory, work: &Work, points: &Buffer, size: BinsSize) -> Result<Self, GpuError> {
         let starts = words(gpu, "where tiles begin", u64::from(size.tiles) + 1)?;
         let items = words(gpu, "cells of tiles", size.pairs.into())?;
-        let rings = words(gpu, "tiles with rings", size.tiles.into())?;
         let kernels = BinsKernels::new(gpu, "cell/outline.wgsl")?;
         let resources = [
             ("frame", order.frame.as_entire_binding()),
@@ -155,11 +151,11 @@ impl TileMemory {
             ("points", points.as_entire_binding()),
         ];
         let bins = Bins::new(gpu, &order.lists, &kernels, [&items, &order.totals], &resources, size)?;
-        Ok(Self { size, starts, items, rings, bins })
+        Ok(Self { size, starts, items, bins })
     }
 
     fn bytes(&self) -> u64 {
-        self.starts.size() + self.items.size() + self.rings.size() + self.bins.bytes()
+        self.starts.size() + self.items.size() + self.bins.bytes()
     }
 }
 

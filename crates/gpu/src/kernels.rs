@@ -60,6 +60,11 @@ pub(crate) struct Kernels {
 }
 
 impl Kernels {
+    /// Forgets all.
+    pub(crate) fn forget(&self) {
+        self.built.lock().unwrap_or_else(PoisonError::into_inner).clear();
+    }
+
     /// How many were built.
     #[cfg(test)]
     pub(crate) fn count(&self) -> usize {

@@ -4,7 +4,7 @@
 //!
 //! 1. transform: points along the camera's axes, in integers, so that every device has the same bits;
 //! 2. order: cells that the transfer function or the view leaves out are dropped, the others sorted by one key (`centroid`, `power`), unless
-//!    the CPU made the order (`mpvo`, `bsp-xmpvo`): its permutation is sent when the view changed;
+//!    the CPU made the order (`mpvo`, `bsp-xmpvo`, `bucket`, and those that a device cannot): its permutation is sent when the view changed;
 //! 3. bin: cells are listed tile by tile; or set up: outlines for the hardware;
 //! 4. rasterize: every pixel integrates its ray's segments front to back in registers, sorts them by itself where the plan says so, or has
 //!    the hardware blend them.

@@ -17,7 +17,7 @@ use crate::{Gpu, GpuError};
 
 /// Draws one field on one mesh, again and again.
 ///
-/// On the device: 20 bytes a tetrahedron and 32 a point, 4 to 17 more a tetrahedron for the order, and what a frame takes; 16 more a point
+/// On the device: 20 bytes a tetrahedron and 32 a point, for the order 8 more a tetrahedron (12 if the CPU made it, 21 by centroids, 53 by `power`), and what a frame takes; 16 more a point
 /// where a plan asks for interpolated gradients. [`Rendered::device`] has the numbers. On the host 16 bytes a tetrahedron and 32 a point, for
 /// orders that the CPU makes.
 ///
@@ -67,7 +67,8 @@ impl GpuRenderer {
     ) -> Result<Self, GpuError> {
         check_scalars(mesh, scalars)?;
         let lattice = Lattice::new(mesh, scalars);
-        let buffers = gpu.attempt(0, || MeshBuffers::new(&gpu, &lattice))?;
+        let (buffers, stopwatch) =
+            gpu.attempt(0, || Ok((MeshBuffers::new(&gpu, &lattice)?, DeviceStopwatch::new(&gpu))))?;
         let field = FieldNumbers {
             scalar_factor: lattice.scalar_factor,
             scalar_middle: lattice.scalar_middle,
@@ -82,7 +83,7 @@ impl GpuRenderer {
             mesh: buffers,
             visibility,
             kernels: Kernels::default(),
-            stopwatch: DeviceStopwatch::new(&gpu),
+            stopwatch,
             lengths: OnceLock::new(),
             kept: Mutex::default(),
             gpu,
@@ -99,7 +100,14 @@ impl GpuRenderer {
         let mut kept = self.kept.lock().unwrap_or_else(PoisonError::into_inner);
         kept.frame += 1;
         let frame = kept.frame;
-        self.gpu.attempt(frame, || Drawing::new(self, plan, progress)?.draw(&mut kept))
+        let done = self.gpu.attempt(frame, || Drawing::new(self, plan, progress)?.draw(&mut kept));
+        if matches!(done, Err(GpuError::OutOfMemory { .. } | GpuError::Driver { .. })) {
+            // What could not be made is there in name only: the next frame begins anew, with the memory that this gives back.
+            *kept = Kept::default();
+            kept.frame = frame;
+            self.kernels.forget();
+        }
+        done
     }
 
     /// Draws a picture, and shows it over the plan's background in a view of the picture's size, without a way through the host.

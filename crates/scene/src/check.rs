@@ -75,6 +75,12 @@ pub enum PlanError {
          \"triangles\", or another integration"
     )]
     FanOnComputePath,
+    /// Fans on a GPU have light of their own and nothing else.
+    #[error(
+        "\"vertex\" on the back end \"gpu\" draws the volume alone; use the back end \"cpu\" for isosurfaces by \"map-smooth\" or a lit volume with it, \
+         or another integration"
+    )]
+    FanWithEffectsOnGpu,
 }
 
 impl Plan {
@@ -110,13 +116,17 @@ impl Plan {
     /// Checks what the back end `gpu` cannot do, besides what [`Self::check`] looks at. The plan's back end is not looked at.
     ///
     /// # Errors
-    /// [`PlanError::CutOnGpu`] and [`PlanError::FanOnComputePath`].
+    /// [`PlanError::CutOnGpu`], [`PlanError::FanOnComputePath`] and [`PlanError::FanWithEffectsOnGpu`].
     pub fn check_on_gpu(&self) -> Result<(), PlanError> {
         if self.cycles == CycleRemedy::Cut {
             return Err(PlanError::CutOnGpu);
         }
         if self.integration.needs_fan() && self.gpu.path == Some(GpuPath::Compute) {
             return Err(PlanError::FanOnComputePath);
+        }
+        let has_effects = self.isosurfaces.is_some() || self.lighting.is_some_and(|lighting| lighting.volume);
+        if self.integration.needs_fan() && has_effects {
+            return Err(PlanError::FanWithEffectsOnGpu);
         }
         Ok(())
     }

@@ -58,6 +58,7 @@ sources![
     "integrate/exact.wgsl",
     "integrate/exponential.wgsl",
     "integrate/light.wgsl",
+    "integrate/no_pieces.wgsl",
     "integrate/optics.wgsl",
     "integrate/partial.wgsl",
     "integrate/parts.wgsl",

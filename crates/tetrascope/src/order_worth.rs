@@ -29,6 +29,8 @@ impl VolumeField<'_> {
     /// [`Error::Scene`] as [`Scene::plan`](tetrascope_scene::Scene::plan), [`Error::Render`] as [`Self::renderer`].
     pub fn plan(&self, completed: &mut Completed) -> Result<Plan, Error> {
         on_threads(completed.scene.threads, || {
+            // Before a renderer asks what is known of the mesh.
+            self.read_kept_heights(completed)?;
             self.settle_backend(completed)?;
             self.settle_order(completed)
         })??;
@@ -37,14 +39,20 @@ impl VolumeField<'_> {
         Ok(plan)
     }
 
-    /// Reads heights that were kept, and settles an order that was left open.
-    fn settle_order(&self, completed: &mut Completed) -> Result<(), Error> {
+    /// Reads heights that were kept, if they are of use.
+    fn read_kept_heights(&self, completed: &mut Completed) -> Result<(), Error> {
         let keeps_heights = completed.file.quality.keep_heights == Some(true);
-        let is_open = completed.leaves_order_open();
-        let has_use = is_open || completed.scene.order == Some(OrderMethod::Power);
+        let has_use = completed.leaves_order_open() || completed.scene.order == Some(OrderMethod::Power);
         if keeps_heights && has_use && completed.scene.backend != Some(Backend::Reference) {
             completed.warnings.extend(self.read_heights()?);
         }
+        Ok(())
+    }
+
+    /// Settles an order that was left open.
+    fn settle_order(&self, completed: &mut Completed) -> Result<(), Error> {
+        let keeps_heights = completed.file.quality.keep_heights == Some(true);
+        let is_open = completed.leaves_order_open();
         if is_open {
             if completed.scene.backend != Some(Backend::Gpu) {
                 // It will be needed, and has the cells.

@@ -1,10 +1,13 @@
 //! What a scene asks of the GPU, and what it cannot do.
 
 use tetrascope_integrate::Integration;
-use tetrascope_order::CycleRemedy;
+use tetrascope_order::{CycleRemedy, OrderMethod, PixelSort};
 
 use super::Scene;
 use crate::{Backend, Decision, GpuOptions, GpuPath, SceneError};
+
+/// Cells that a pixel can hold back on a GPU.
+const MOST_WINDOW: u32 = 63;
 
 impl Scene {
     /// Why the back end `gpu` cannot draw this scene, whatever the device; `None` if it can.
@@ -26,6 +29,37 @@ impl Scene {
                 value: self.cycles.to_string(),
                 problem: "leaves pieces of cells, and the back end \"gpu\" draws whole ones".to_owned(),
                 remedy: "use quality.cycles = \"per-pixel\" or quality.backend = \"cpu\"",
+            });
+        }
+        let has_effects = self.isosurfaces.iter().any(|surface| surface.opacity > 0.0)
+            || self.lighting.is_some_and(|lighting| lighting.volume);
+        if integration.needs_fan() && has_effects {
+            return Some(SceneError::Conflict {
+                key: "quality.integration",
+                value: integration.to_string(),
+                problem: "draws the volume alone on the back end \"gpu\", without isosurfaces and light".to_owned(),
+                remedy: "use quality.backend = \"cpu\" or another integration, such as \"exact\"",
+            });
+        }
+        let sort = self.order.map_or(PixelSort::None, OrderMethod::pixel_sort);
+        if let PixelSort::Window(window) = sort
+            && window > MOST_WINDOW
+        {
+            return Some(SceneError::Conflict {
+                key: "quality.window",
+                value: window.to_string(),
+                problem: format!(
+                    "is more than the {MOST_WINDOW} cells that a pixel holds back on the back end \"gpu\""
+                ),
+                remedy: "use a smaller window, quality.order = \"per-pixel\" or quality.backend = \"cpu\"",
+            });
+        }
+        if sort != PixelSort::None && (self.gpu.path == Some(GpuPath::Triangles) || integration.needs_fan()) {
+            return Some(SceneError::Conflict {
+                key: "quality.order",
+                value: self.order.map_or_else(String::new, |order| order.to_string()),
+                problem: "is sorted in the pixels, which triangles on the back end \"gpu\" cannot".to_owned(),
+                remedy: "use quality.gpu_path = \"compute\", another order or quality.backend = \"cpu\"",
             });
         }
         (integration.needs_fan() && self.gpu.path == Some(GpuPath::Compute)).then(|| SceneError::Conflict {
