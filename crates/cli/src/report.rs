@@ -5,8 +5,8 @@ use std::time::Duration;
 
 use serde_json::{Map, Value, json};
 use tetrascope::{
-    Backend, BufferRole, Completed, CycleRemedy, DeviceReport, Gradients, Integration, LengthAxis, OrderWorth, Plan,
-    Projection, Rendered, TargetBits, Volume, VolumeField, short,
+    Backend, BufferRole, Completed, CycleRemedy, DeviceReport, GpuPath, Gradients, Integration, LengthAxis, OrderWorth,
+    Plan, Projection, Rendered, TargetBits, Volume, VolumeField, short,
 };
 
 /// Collects what was done; people read it line by line as it happens, machines at the end.
@@ -148,11 +148,11 @@ impl Report {
         self.say(
             "drawn",
             &format!(
-                "{} ({} invisible by the transfer function, {} out of view or between pixels), {} fragments",
+                "{} ({} invisible by the transfer function, {} out of view or between pixels), {}",
                 drawn(rendered, plan),
                 counts.transparent,
                 counts.outside,
-                counts.fragments
+                fragments(rendered)
             ),
         );
         self.say("guarantee", &worth.summary);
@@ -294,6 +294,12 @@ fn memory_of(device: &DeviceReport, role: BufferRole, cells: u64) -> String {
         .map(|buffer| format!("{} {}", buffer.label, buffer.bytes))
         .collect();
     format!("{role}: {bytes} bytes{share} ({})", parts.join(", "))
+}
+
+/// Pairs of a pixel and a tetrahedron, where somebody counts them.
+fn fragments(rendered: &Rendered) -> String {
+    let by_hardware = rendered.device.as_ref().is_some_and(|device| device.path == GpuPath::Triangles);
+    if by_hardware { "fragments not counted".to_owned() } else { format!("{} fragments", rendered.counts.fragments) }
 }
 
 /// Sizes of the integration's table; null if it has none.
