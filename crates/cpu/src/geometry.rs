@@ -308,19 +308,5 @@ pub(crate) fn is_outside_rectangle(corners: &[DVec3; 4], u: [f64; 2], w: [f64; 2
         || corners.iter().all(|p| p.y > w[1] * p.z)
 }
 
-/// A tetrahedron's vertices by ascending index, and whether its volume is positive in that order.
-pub(crate) fn ascending(mut vertices: [u32; 4]) -> ([u32; 4], bool) {
-    let mut is_positive = true;
-    for end in (1..4).rev() {
-        for i in 0..end {
-            if vertices[i] > vertices[i + 1] {
-                vertices.swap(i, i + 1);
-                is_positive = !is_positive;
-            }
-        }
-    }
-    (vertices, is_positive)
-}
-
 #[cfg(test)]
 mod tests;

@@ -206,7 +206,7 @@ impl Drawing<'_> {
         Ok(())
     }
 
-    /// Fans of triangles, blended by hardware.
+    /// Silhouettes of cells, rasterized and blended by hardware; fans for the integration that is defined on them.
     ///
     /// - `is_ends`: whether the block is the first and the last that is drawn
     fn draw_triangles(

@@ -1,7 +1,7 @@
 //! A mesh and a field as the device holds them: whole numbers on a lattice, 16 bytes a point and 20 a cell.
 
 use rayon::prelude::*;
-use tetrascope_mesh::{TetMesh, VertexId};
+use tetrascope_mesh::{TetMesh, ascending, scalar_factor, scalar_range};
 use tetrascope_shaders::layout::{LATTICE_STEP, NEGATIVE_BIT};
 
 /// Lattice steps of one step of a cell's range of scalars, as a power of two.
@@ -99,40 +99,4 @@ fn six_volume([a, b, c, d]: [[i32; 4]; 4]) -> i128 {
     let (p, q, r) = (edge(b), edge(c), edge(d));
     let cross = [p[1] * q[2] - p[2] * q[1], p[2] * q[0] - p[0] * q[2], p[0] * q[1] - p[1] * q[0]];
     cross[0] * r[0] + cross[1] * r[1] + cross[2] * r[2]
-}
-
-/// A tetrahedron's vertices by ascending index, and whether its volume is positive in that order.
-fn ascending(mut vertices: [u32; 4]) -> ([u32; 4], bool) {
-    let mut is_positive = true;
-    for end in (1..4).rev() {
-        for i in 0..end {
-            if vertices[i] > vertices[i + 1] {
-                vertices.swap(i, i + 1);
-                is_positive = !is_positive;
-            }
-        }
-    }
-    (vertices, is_positive)
-}
-
-/// Lowest and highest scalar that a cell uses; both 0 without cells.
-fn scalar_range(tetrahedra: &[[VertexId; 4]], scalars: &[f64]) -> [f64; 2] {
-    let (low, high) = tetrahedra
-        .par_iter()
-        .map(|cell| cell.map(|vertex| scalars[vertex.index()]))
-        .map(|s| s.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), &s| (low.min(s), high.max(s))))
-        .reduce(|| (f64::INFINITY, f64::NEG_INFINITY), |a, b| (a.0.min(b.0), a.1.max(b.1)));
-    if low <= high { [low, high] } else { [0.0; 2] }
-}
-
-/// The power of two that brings the range of a field to between 1 and 2; 1 for a field of one value.
-fn scalar_factor([low, high]: [f64; 2]) -> f64 {
-    // Halves, whose difference is finite.
-    let half = 0.5 * high - 0.5 * low;
-    if half > 0.0 {
-        // Within what has a finite inverse.
-        (-half.log2().floor() - 1.0).clamp(-1000.0, 1000.0).exp2()
-    } else {
-        1.0
-    }
 }

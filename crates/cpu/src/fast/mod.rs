@@ -41,14 +41,17 @@ use glam::DVec3;
 use rayon::prelude::*;
 
 use tetrascope_integrate::{Integration, Isosurfaces};
-use tetrascope_mesh::{CellId, ChordLengths, Frame, TetMesh, VertexId, point_gradients, segment_lengths};
+use tetrascope_mesh::{
+    CellId, ChordLengths, Frame, TetMesh, VertexId, ascending, point_gradients, scalar_factor, scalar_range,
+    segment_lengths,
+};
 use tetrascope_order::{Cells, CycleRemedy, Guarantee, MeshVisibility, OrderMethod, PixelSort, VisibilityOrder};
 use tetrascope_scene::{Counts, Gradients, OrderReport, Plan, Progress, Rendered, Stage, Stopwatch, check_scalars};
 use tetrascope_view::LinearImage;
 
 use crate::RenderError;
 use crate::error::on_threads;
-use crate::geometry::{PixelSpace, Points, ascending};
+use crate::geometry::{PixelSpace, Points};
 use crate::grid::{Bins, TileGrid};
 use cell::{NOWHERE, Outline};
 use effects::Effects;
@@ -423,29 +426,6 @@ fn remember<T>(kept: &Mutex<Vec<Arc<T>>>, new: T) -> Arc<T> {
     kept.insert(0, Arc::clone(&new));
     kept.truncate(KEPT);
     new
-}
-
-/// Lowest and highest scalar that a cell uses; both 0 without cells.
-fn scalar_range(tetrahedra: &[[VertexId; 4]], scalars: &[f64]) -> [f64; 2] {
-    let (low, high) = tetrahedra
-        .par_iter()
-        .map(|cell| cell.map(|v| scalars[v.index()]))
-        .map(|s| s.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), &s| (low.min(s), high.max(s))))
-        .reduce(|| (f64::INFINITY, f64::NEG_INFINITY), |a, b| (a.0.min(b.0), a.1.max(b.1)));
-    if low <= high { [low, high] } else { [0.0; 2] }
-}
-
-/// The power of two that brings the range of a field to between 1 and 2, so that what f32 sees of it neither over- nor
-/// underflows, whatever its unit. Being a power of two it changes no digit.
-fn scalar_factor([low, high]: [f64; 2]) -> f64 {
-    // Halves, whose difference is finite.
-    let half = 0.5 * high - 0.5 * low;
-    if half > 0.0 {
-        // Within what has a finite inverse.
-        (-half.log2().floor() - 1.0).clamp(-1000.0, 1000.0).exp2()
-    } else {
-        1.0
-    }
 }
 
 #[cfg(test)]

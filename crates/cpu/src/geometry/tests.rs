@@ -4,6 +4,8 @@ use glam::DVec3;
 use proptest::prelude::*;
 use tetrascope_view::{Camera, Projection, View};
 
+use tetrascope_mesh::ascending;
+
 use super::*;
 
 fn point(size: f64) -> impl Strategy<Value = DVec3> {
