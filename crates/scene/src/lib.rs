@@ -71,7 +71,8 @@ pub use finite::{FieldOnMesh, place_on_mesh};
 #[cfg(feature = "file")]
 pub use parse::{Position, SceneSyntaxError, WriteSceneError};
 pub use plan::{
-    Decision, Gradients, IsosurfaceMethod, IsosurfacePlan, Lighting, Mixing, Plan, Progress, Silent, Stage,
+    Decision, Gradients, Interpolation, IsosurfaceMethod, IsosurfacePlan, Lighting, Mixing, Plan, Progress, Silent,
+    Stage,
 };
 pub use rendered::{BufferRole, Counts, DeviceBuffer, DeviceReport, OrderReport, Rendered, Stopwatch};
 pub use scene::Scene;

@@ -9,7 +9,9 @@ use tetrascope_integrate::{Integration, Isosurface, Isosurfaces, OpticalModel, T
 use tetrascope_order::{CycleRemedy, OrderMethod};
 use tetrascope_view::{Camera, View};
 
-use crate::{Backend, Decision, GpuOptions, IsosurfaceMethod, IsosurfacePlan, Lighting, Plan, SceneError};
+use crate::{
+    Backend, Decision, GpuOptions, Interpolation, IsosurfaceMethod, IsosurfacePlan, Lighting, Plan, SceneError,
+};
 
 /// Everything one picture depends on besides mesh and field, as numbers.
 #[derive(Clone, Debug, PartialEq)]
@@ -82,6 +84,7 @@ impl Scene {
             transfer,
             model: self.model,
             integration,
+            interpolation: Interpolation::Exact,
             tables,
             isosurfaces,
             lighting,

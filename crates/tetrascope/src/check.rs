@@ -6,7 +6,7 @@ use std::time::{Duration, Instant};
 use tetrascope_mesh::{CellId, Decomposition, FaceAdjacency, MeshReport, check};
 use tetrascope_order::{Budget, OrderMethod, Overlaps, Power, PowerCertificate, Relations, Verdict};
 use tetrascope_scene::{Backend, Plan, Progress};
-use tetrascope_view::LinearImage;
+use tetrascope_view::{LinearImage, PixelDifference};
 
 use crate::threads::on_threads;
 use crate::{Error, VolumeField};
@@ -45,58 +45,9 @@ pub struct OrderCheck {
     pub pixels: PixelDifference,
 }
 
-/// Where two pictures differ.
-#[derive(Clone, Debug, PartialEq)]
-pub struct PixelDifference {
-    /// For every pixel, in rows from the top, the largest difference in any of its four channels; infinite where a channel is no number.
-    pub by_pixel: Vec<f32>,
-}
-
-impl PixelDifference {
-    /// What rounding may leave between two pictures in f32 that blend the same cells in the same order.
-    pub const ROUNDING: f32 = 1e-5;
-    /// One step of an 8-bit channel.
-    pub const STEP: f32 = 1.0 / 255.0;
-
-    /// Pixels with a difference above a limit.
-    pub fn above(&self, limit: f32) -> usize {
-        self.by_pixel.iter().filter(|difference| **difference > limit).count()
-    }
-
-    /// The largest difference; 0 for a picture without pixels.
-    pub fn largest(&self) -> f32 {
-        self.by_pixel.iter().copied().fold(0.0, f32::max)
-    }
-
-    /// A picture of it: black up to [`Self::ROUNDING`], then brighter with the logarithm, white from 1 on.
-    ///
-    /// - `width`: pixels a row
-    pub fn map(&self, width: u32) -> Option<LinearImage> {
-        let brightness = |difference: f32| {
-            let decades = (difference / Self::ROUNDING).max(1.0).log10() / -Self::ROUNDING.log10();
-            // A .png stores about the square root of it.
-            let linear = decades.min(1.0).powi(2);
-            [linear, linear, linear, 1.0]
-        };
-        let height = self.by_pixel.len() as u32 / width.max(1);
-        LinearImage::from_pixels(width, height, self.by_pixel.iter().map(|&d| brightness(d)).collect())
-    }
-}
-
 /// Pixels in which anything is seen: those with a channel that is not 0.
 pub fn seen_pixels(picture: &LinearImage) -> usize {
     picture.pixels().iter().filter(|pixel| pixel.iter().any(|channel| *channel != 0.0)).count()
-}
-
-/// Where two pictures of one size differ; pixels that only one of them has count as infinitely different.
-pub fn compare_pictures(picture: &LinearImage, exact: &LinearImage) -> PixelDifference {
-    let difference = |(a, b): (&[f32; 4], &[f32; 4])| {
-        let channels = a.iter().zip(b).map(|(a, b)| (a - b).abs());
-        channels.fold(0.0, |largest: f32, d| if d.is_nan() { f32::INFINITY } else { largest.max(d) })
-    };
-    let mut by_pixel: Vec<f32> = picture.pixels().iter().zip(exact.pixels()).map(difference).collect();
-    by_pixel.resize(picture.pixels().len().max(exact.pixels().len()), f32::INFINITY);
-    PixelDifference { by_pixel }
 }
 
 impl VolumeField<'_> {
@@ -199,7 +150,7 @@ impl VolumeField<'_> {
         let start = Instant::now();
         let picture = renderer.render(&plan, progress)?.image;
         let drawn_in = start.elapsed();
-        Ok(OrderCheck { method, verdict, sorted_in, drawn_in, pixels: compare_pictures(&picture, exact) })
+        Ok(OrderCheck { method, verdict, sorted_in, drawn_in, pixels: PixelDifference::between(&picture, exact) })
     }
 
     /// The plan's view in the coordinates of the mesh.

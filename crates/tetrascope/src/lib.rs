@@ -41,7 +41,7 @@ mod threads;
 mod volume;
 
 pub use backend::adapter_of_auto;
-pub use check::{MeshCheck, OrderCheck, PixelDifference, compare_pictures, seen_pixels};
+pub use check::{MeshCheck, OrderCheck, seen_pixels};
 pub use error::Error;
 pub use order_worth::OrderWorth;
 pub use render::{Picture, is_blank, render_scene, render_volume, warn_of_non_finite};
@@ -67,13 +67,13 @@ pub use tetrascope_order::{
 };
 pub use tetrascope_scene::{
     ArraySummary, Association, Backend, BufferRole, CameraSection, Choice, Completed, Counts, Decision, DeviceBuffer,
-    DeviceReport, Field, FieldError, FieldOnMesh, GpuOptions, GpuPath, Gradients, IsosurfaceMethod,
+    DeviceReport, Field, FieldError, FieldOnMesh, GpuOptions, GpuPath, Gradients, Interpolation, IsosurfaceMethod,
     IsosurfaceMethodName, IsosurfacePlan, IsosurfaceSection, LengthAxisName, LightDirection, LightName, LightSection,
     Lighting, MeshFacts, Mixing, OrderReport, Plan, PlanError, Progress, ProjectionName, Rendered, Scene, SceneError,
     SceneFile, SceneSyntaxError, Shading, Silent, Stage, TargetBits, explain_blank, select_field, short,
     summarize_arrays,
 };
-pub use tetrascope_view::{Camera, LinearImage, Projection, View, ViewError};
+pub use tetrascope_view::{Camera, ErrorFigures, LinearImage, PixelDifference, Projection, View, ViewError};
 
 pub use {
     tetrascope_classify as classify, tetrascope_cpu as cpu, tetrascope_gpu as gpu, tetrascope_integrate as integrate,

@@ -49,10 +49,17 @@ const LAYERS: &[Layer] = &[
     ),
     layer("tetrascope-cpu", 3, &[], "a back end sees no other one and opens no file"),
     layer("tetrascope-gpu", 3, &[], "a back end sees no other one and opens no file"),
-    layer("tetrascope", 4, &[], "it joins the others"),
-    layer("tetrascope-cli", 5, &[], "it goes through the facade"),
-    layer("tetrascope-tests", 5, &[], "it crosses crates"),
-    layer("xtask", 6, &[], "it is above everything"),
+    layer(
+        "tetrascope-estimate",
+        4,
+        &["tetrascope-gpu", "tetrascope-io", "tetrascope-shaders"],
+        "it measures pictures with rays and draws none",
+    ),
+    layer("tetrascope", 5, &[], "it joins the others"),
+    layer("tetrascope-study", 6, &[], "it goes through the facade"),
+    layer("tetrascope-cli", 7, &[], "it goes through the facade"),
+    layer("tetrascope-tests", 7, &[], "it crosses crates"),
+    layer("xtask", 8, &[], "it is above everything"),
 ];
 
 /// Crates from elsewhere that only some may use.
