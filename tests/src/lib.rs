@@ -6,6 +6,7 @@ pub mod golden;
 pub mod gpu;
 pub mod meshes;
 pub mod pictures;
+pub mod scenes;
 pub mod shapes;
 pub mod shared;
 pub mod surfaces;

@@ -5,6 +5,7 @@
 //! over their exponents. Coarse cells have any two scalars at their ends, fine ones such that lie at most 1/20 apart. Times are
 //! of the f64 functions along a ray; the renderers have others.
 
+mod estimates;
 mod families;
 mod methods;
 mod orders;
@@ -44,6 +45,8 @@ pub(crate) struct Args {
 enum Part {
     Integration,
     Orders,
+    Estimates,
+    Costs,
 }
 
 /// Sizes of cells: a name, and how far apart the scalars at the ends of a segment are at most.
@@ -69,6 +72,12 @@ const END: &str = "<!-- tables: end -->";
 pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     if args.write && !args.only.is_empty() {
         return Err("--write needs all methods and meshes; leave out --only".into());
+    }
+    if args.part == Some(Part::Estimates) {
+        return estimates::run(u64::from(args.samples));
+    }
+    if args.part == Some(Part::Costs) {
+        return estimates::costs(u64::from(args.samples));
     }
     if args.part != Some(Part::Orders) {
         let mut text = String::new();

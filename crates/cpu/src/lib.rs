@@ -8,6 +8,8 @@
 //! - [`CpuRenderer`] is what users run: one set-up per tetrahedron, tiles, eight pixels at a time in f32, all cores. It
 //!   draws the cells in the order that the plan names, with any method.
 //!
+//! [`rays`] has single rays of the reference, for those who measure errors.
+//!
 //! Both see a cell through the same four planes, so they agree on which pixels it covers, seams included: a ray that runs
 //! exactly in a face, along an edge or through a vertex belongs to exactly one cell.
 //!
@@ -52,6 +54,7 @@ mod error;
 mod fast;
 mod geometry;
 mod grid;
+pub mod rays;
 pub mod reference;
 
 #[cfg(test)]

@@ -6,14 +6,14 @@
 //! in space are composed one after the other, as if the nearer one ended first.
 
 mod light;
-mod ray;
+pub(crate) mod ray;
 
 use rayon::prelude::*;
 use std::sync::atomic::{AtomicU64, Ordering};
 use tetrascope_integrate::{Integrator, TableDomain};
 use tetrascope_mesh::{TetMesh, ascending};
 use tetrascope_order::Guarantee;
-use tetrascope_scene::{Counts, Gradients, OrderReport, Plan, Progress, Rendered, Stage, Stopwatch, check_scalars};
+use tetrascope_scene::{Counts, OrderReport, Plan, Progress, Rendered, Stage, Stopwatch, check_scalars};
 use tetrascope_view::LinearImage;
 
 use crate::RenderError;
@@ -21,8 +21,7 @@ use crate::domain::table_domain;
 use crate::error::on_threads;
 use crate::geometry::{ClipCell, PixelBox, PixelSpace, Points, is_outside_rectangle};
 use crate::grid::{Bins, Tile, TileGrid};
-use light::Light;
-use ray::{Fragment, Ray, RayComposer, Surfaces};
+use ray::{Fragment, Ray, RayComposer};
 
 /// Pixels a side of a tile: the fragments of all its pixels are in memory at once, 40 bytes each.
 const TILE_SIDE: u32 = 16;
@@ -45,9 +44,6 @@ pub fn render(mesh: &TetMesh, scalars: &[f64], plan: &Plan, progress: &dyn Progr
     on_threads(plan.threads, || render_here(mesh, scalars, plan, progress))?
 }
 
-/// What a table covers where there is no segment.
-const NOTHING: TableDomain = TableDomain { scalars: [0.0; 2], mean_length: 1.0, max_length: 1.0 };
-
 struct Job<'a> {
     cells: Vec<[u32; 4]>,
     points: Points,
@@ -62,32 +58,36 @@ struct Job<'a> {
     crossings: AtomicU64,
 }
 
-fn render_here(mesh: &TetMesh, scalars: &[f64], plan: &Plan, progress: &dyn Progress) -> Result<Rendered, RenderError> {
-    let mut watch = Stopwatch::start();
+/// By where the ray enters; of two that begin together the one that ends first.
+pub(crate) fn nearer_first(a: &Fragment, b: &Fragment) -> std::cmp::Ordering {
+    a.depth[0].total_cmp(&b.depth[0]).then(a.depth[1].total_cmp(&b.depth[1]))
+}
+
+/// The plan's integration along rays, its table over the mesh's scalars and lengths.
+pub(crate) fn integrator(
+    mesh: &TetMesh,
+    scalars: &[f64],
+    plan: &Plan,
+    progress: &dyn Progress,
+) -> Result<Integrator, RenderError> {
     if plan.integration.needs_fan() {
         return Err(RenderError::IntegrationNeedsFan);
     }
-    let domain = if plan.integration.needs_table() {
-        // Only a mesh without volume has none: nothing is looked up in it, whatever the table covers.
-        Some(table_domain(mesh, scalars).unwrap_or(NOTHING))
-    } else {
-        None
-    };
+    // Only a mesh without volume has none: nothing is looked up in it, whatever the table covers.
+    const NOTHING: TableDomain = TableDomain { scalars: [0.0; 2], mean_length: 1.0, max_length: 1.0 };
+    let domain = plan.integration.needs_table().then(|| table_domain(mesh, scalars).unwrap_or(NOTHING));
     let settings = plan.table_settings();
     let tell = |done, total| progress.report(Stage::Tabulate, done, total);
-    let integrator =
-        Integrator::new(plan.integration, &plan.transfer, plan.model, settings.as_ref().zip(domain.as_ref()), &tell)?;
-    if domain.is_some() {
+    Ok(Integrator::new(plan.integration, &plan.transfer, plan.model, settings.as_ref().zip(domain.as_ref()), &tell)?)
+}
+
+fn render_here(mesh: &TetMesh, scalars: &[f64], plan: &Plan, progress: &dyn Progress) -> Result<Rendered, RenderError> {
+    let mut watch = Stopwatch::start();
+    let integrator = integrator(mesh, scalars, plan, progress)?;
+    if plan.integration.needs_table() {
         watch.lap(Stage::Tabulate);
     }
-    let needed = plan.gradients();
-    let lit = plan.lighting.as_ref().filter(|_| needed != Gradients::None);
-    let surfaces = plan.isosurfaces.as_ref().map(|isosurfaces| isosurfaces.surfaces.visible());
-    let composer = RayComposer {
-        integrator,
-        surfaces: surfaces.as_ref().map(|surfaces| Surfaces::new(surfaces, mesh, scalars)),
-        light: lit.map(|lighting| Light::new(lighting, needed, mesh, scalars)),
-    };
+    let composer = RayComposer::new(integrator, plan, mesh, scalars);
     watch.lap(Stage::Prepare);
 
     let frame = mesh.frame();
@@ -191,8 +191,9 @@ impl Job<'_> {
         }
         let (mut fragments_drawn, mut crossings) = (0, 0);
         let compose = |(pixel, fragments): (usize, &mut Vec<Fragment>)| {
-            let ray = self.ray(tile.x + pixel as u32 % tile.width, tile.y + pixel as u32 / tile.width);
-            fragments.sort_by(|a, b| a.depth[0].total_cmp(&b.depth[0]).then(a.depth[1].total_cmp(&b.depth[1])));
+            let at = [tile.x + pixel as u32 % tile.width, tile.y + pixel as u32 / tile.width];
+            let ray = Ray::of_pixel(&self.space, &self.plan.view, at);
+            fragments.sort_by(nearer_first);
             let corners = |cell: u32| self.points.corners(self.cells[cell as usize]);
             let composed = self.composer.compose(&ray, fragments, corners);
             fragments_drawn += composed.fragments;
@@ -204,17 +205,5 @@ impl Job<'_> {
         self.fragments.fetch_add(fragments_drawn, Ordering::Relaxed);
         self.crossings.fetch_add(crossings, Ordering::Relaxed);
         colors
-    }
-
-    fn ray(&self, x: u32, y: u32) -> Ray {
-        let (u, w) = (PixelSpace::center(x, self.space.size[0]), PixelSpace::center(y, self.space.size[1]));
-        let direction = self.plan.view.ray(f64::from(x) + 0.5, f64::from(y) + 0.5).direction;
-        Ray {
-            center: [u, w],
-            is_perspective: self.space.is_perspective,
-            stretch: self.space.ray_stretch(u, w),
-            // Not zero: its component along the line of sight is 1.
-            to_eye: -direction / direction.length(),
-        }
     }
 }

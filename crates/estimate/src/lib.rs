@@ -1,1 +1,10 @@
 //! How wrong a picture will be, how wrong it is, and the cheapest way to one that is right enough.
+
+mod bound;
+mod estimate;
+mod probe;
+mod sample;
+mod survey;
+
+pub use estimate::{BlendingOrder, Cause, ErrorEstimate, ErrorPart, RAYS, Subject, estimate};
+pub use survey::Survey;

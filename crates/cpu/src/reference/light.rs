@@ -11,7 +11,7 @@ use tetrascope_scene::{Gradients, Lighting};
 /// Directions are the world's. Gradients are taken in the mesh's frame, which is the world moved and uniformly scaled, and of
 /// them only the direction counts.
 pub(super) struct Light<'a> {
-    lighting: &'a Lighting,
+    lighting: Lighting,
     mesh: &'a TetMesh,
     scalars: &'a [f64],
     /// One a point; empty if none are interpolated.
@@ -20,7 +20,7 @@ pub(super) struct Light<'a> {
 
 impl<'a> Light<'a> {
     /// Computes the gradients that are needed, and no others.
-    pub(super) fn new(lighting: &'a Lighting, needed: Gradients, mesh: &'a TetMesh, scalars: &'a [f64]) -> Self {
+    pub(super) fn new(lighting: Lighting, needed: Gradients, mesh: &'a TetMesh, scalars: &'a [f64]) -> Self {
         let gradients = if needed == Gradients::Points { vertex_gradients(mesh, scalars) } else { Vec::new() };
         Self { lighting, mesh, scalars, gradients }
     }

@@ -3,42 +3,62 @@
 use glam::DVec3;
 use tetrascope_integrate::{Integrator, Isosurfaces, RgbaAssoc, Segment};
 use tetrascope_mesh::TetMesh;
+use tetrascope_scene::{Gradients, Plan};
+use tetrascope_view::View;
 
 use super::light::Light;
 use crate::domain::scalar_range;
+use crate::geometry::PixelSpace;
 
 /// A cell's segment of one ray; 40 bytes.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Fragment {
+pub(crate) struct Fragment {
     /// Depth where the ray enters and leaves.
-    pub(super) depth: [f64; 2],
+    pub(crate) depth: [f64; 2],
     /// Scalar there.
-    pub(super) scalar: [f64; 2],
-    pub(super) cell: u32,
+    pub(crate) scalar: [f64; 2],
+    pub(crate) cell: u32,
 }
 
 /// The ray of a pixel center.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Ray {
+pub(crate) struct Ray {
     /// Where it is in pixel space.
-    pub(super) center: [f64; 2],
-    pub(super) is_perspective: bool,
+    center: [f64; 2],
+    is_perspective: bool,
     /// World length of one unit of depth.
-    pub(super) stretch: f64,
+    pub(crate) stretch: f64,
     /// Against the ray, world coordinates, of length 1.
-    pub(super) to_eye: DVec3,
+    to_eye: DVec3,
+}
+
+impl Ray {
+    /// The ray of a pixel.
+    ///
+    /// - `view`: in world coordinates, of which `space` is made
+    pub(crate) fn of_pixel(space: &PixelSpace, view: &View, [x, y]: [u32; 2]) -> Self {
+        let (u, w) = (PixelSpace::center(x, space.size[0]), PixelSpace::center(y, space.size[1]));
+        let direction = view.ray(f64::from(x) + 0.5, f64::from(y) + 0.5).direction;
+        Self {
+            center: [u, w],
+            is_perspective: space.is_perspective,
+            stretch: space.ray_stretch(u, w),
+            // Not zero: its component along the line of sight is 1.
+            to_eye: -direction / direction.length(),
+        }
+    }
 }
 
 /// Everything that fragments become light with.
-pub(super) struct RayComposer<'a> {
-    pub(super) integrator: Integrator,
-    pub(super) surfaces: Option<Surfaces<'a>>,
-    pub(super) light: Option<Light<'a>>,
+pub(crate) struct RayComposer<'a> {
+    pub(crate) integrator: Integrator,
+    surfaces: Option<Surfaces>,
+    light: Option<Light<'a>>,
 }
 
 /// Isosurfaces in a field.
-pub(super) struct Surfaces<'a> {
-    set: &'a Isosurfaces,
+struct Surfaces {
+    set: Isosurfaces,
     /// Scalars that lie below a value by no more than this count as on it.
     slack: f64,
 }
@@ -55,8 +75,8 @@ const CONTIGUOUS: f64 = 1e-9;
 /// edge-on, or that is the mesh's boundary, would be there or not as each pixel rounds.
 const ON_SURFACE: f64 = 1e-12;
 
-impl<'a> Surfaces<'a> {
-    pub(super) fn new(set: &'a Isosurfaces, mesh: &TetMesh, scalars: &[f64]) -> Self {
+impl Surfaces {
+    fn new(set: Isosurfaces, mesh: &TetMesh, scalars: &[f64]) -> Self {
         let [low, high] = scalar_range(mesh, scalars).unwrap_or_default();
         // Products first: the difference of huge scalars overflows. Then what a scalar itself rounds to.
         let slack = (high * ON_SURFACE - low * ON_SURFACE) + 4.0 * f64::EPSILON * low.abs().max(high.abs());
@@ -75,19 +95,31 @@ struct Reached {
 }
 
 /// What fragments became.
-pub(super) struct Composed {
-    pub(super) light: RgbaAssoc,
+pub(crate) struct Composed {
+    pub(crate) light: RgbaAssoc,
     /// Fragments that were integrated.
-    pub(super) fragments: u64,
+    pub(crate) fragments: u64,
     /// Surfaces that they met, each time.
-    pub(super) crossings: u64,
+    pub(crate) crossings: u64,
 }
 
-impl RayComposer<'_> {
+impl<'a> RayComposer<'a> {
+    /// Isosurfaces and light as the plan has them; gradients are computed if these need them.
+    pub(crate) fn new(integrator: Integrator, plan: &Plan, mesh: &'a TetMesh, scalars: &'a [f64]) -> Self {
+        let needed = plan.gradients();
+        let lit = plan.lighting.filter(|_| needed != Gradients::None);
+        let surfaces = plan.isosurfaces.as_ref().map(|isosurfaces| isosurfaces.surfaces.visible());
+        Self {
+            integrator,
+            surfaces: surfaces.map(|surfaces| Surfaces::new(surfaces, mesh, scalars)),
+            light: lit.map(|lighting| Light::new(lighting, needed, mesh, scalars)),
+        }
+    }
+
     /// Composes the fragments of a ray, sorted by where they begin, until nothing behind can be seen.
     ///
     /// - `corners`: of a cell, in pixel space
-    pub(super) fn compose(&self, ray: &Ray, fragments: &[Fragment], corners: impl Fn(u32) -> [DVec3; 4]) -> Composed {
+    pub(crate) fn compose(&self, ray: &Ray, fragments: &[Fragment], corners: impl Fn(u32) -> [DVec3; 4]) -> Composed {
         let farthest = fragments.iter().fold(0.0_f64, |farthest, fragment| farthest.max(fragment.depth[1]));
         let mut reached: Option<Reached> = None;
         let mut composed = Composed { light: RgbaAssoc::TRANSPARENT, fragments: 0, crossings: 0 };
@@ -183,7 +215,7 @@ mod tests {
         let composer = RayComposer {
             integrator: Integrator::new(Integration::Exact, &transfer, OpticalModel::Absorption, None, &|_, _| ())
                 .unwrap(),
-            surfaces: Some(Surfaces { set: &set, slack: 0.0 }),
+            surfaces: Some(Surfaces { set, slack: 0.0 }),
             light: None,
         };
         let fragments: Vec<Fragment> =

@@ -14,7 +14,7 @@ impl Method for Average {
 
     #[inline(always)]
     fn shade<S: Simd, M: Model>(simd: S, cell: CellOptics<'_>, sample: &Sample<S>) -> Light<S> {
-        let (extinction, color) = transfer_at(simd, cell.pieces, (sample.front + sample.back) * 0.5);
+        let (extinction, color) = transfer_at(simd, cell.pieces, sample.covered, (sample.front + sample.back) * 0.5);
         M::constant(simd, extinction, color, sample.length)
     }
 }

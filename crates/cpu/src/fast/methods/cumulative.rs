@@ -3,7 +3,7 @@
 use fearless_simd::{Simd, f32x8, prelude::*};
 use tetrascope_integrate::lanes::cumulative::{Part, Sums};
 
-use super::{CellOptics, Method, value};
+use super::{CellOptics, Method, met, value};
 use crate::fast::cell::LocalPiece;
 use crate::fast::model::Model;
 use crate::fast::sample::{Light, Sample};
@@ -30,7 +30,8 @@ impl<const PER_LENGTH: bool> Method for Cumulative<PER_LENGTH> {
             let is_flat = high.simd_le(low);
             let inverse = one / is_flat.select(one, high - low);
             let last = cell.pieces.len() - 1;
-            for (index, piece) in cell.pieces.iter().enumerate() {
+            for index in met(simd, cell.pieces, sample.covered, low, high) {
+                let piece = &cell.pieces[index];
                 let (start, end) = (f32x8::splat(simd, piece.start), f32x8::splat(simd, piece.end));
                 let from = low.max(start).min(end);
                 let to = high.max(start).min(end);

@@ -16,8 +16,8 @@ impl Method for Ends {
 
     #[inline(always)]
     fn shade<S: Simd, M: Model>(simd: S, cell: CellOptics<'_>, sample: &Sample<S>) -> Light<S> {
-        let (extinction, [r, g, b]) = transfer_at(simd, cell.pieces, sample.front);
-        let (extinction_back, [r_back, g_back, b_back]) = transfer_at(simd, cell.pieces, sample.back);
+        let (extinction, [r, g, b]) = transfer_at(simd, cell.pieces, sample.covered, sample.front);
+        let (extinction_back, [r_back, g_back, b_back]) = transfer_at(simd, cell.pieces, sample.covered, sample.back);
         let color = [(r + r_back) * 0.5, (g + g_back) * 0.5, (b + b_back) * 0.5];
         M::constant(simd, (extinction + extinction_back) * 0.5, color, sample.length)
     }

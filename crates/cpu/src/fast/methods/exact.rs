@@ -2,7 +2,7 @@
 
 use fearless_simd::{Simd, f32x8, prelude::*};
 
-use super::{CellOptics, Method};
+use super::{CellOptics, Method, met};
 use crate::fast::cell::LocalPiece;
 use crate::fast::model::Model;
 use crate::fast::sample::{Light, Sample};
@@ -34,7 +34,8 @@ fn cut<S: Simd, M: Model>(simd: S, pieces: &[LocalPiece], sample: &Sample<S>) ->
     let inverse = one / is_flat.select(one, high - low);
     let mut light = Light { rgb: [zero; 3], transmittance: one };
     let last = pieces.len() - 1;
-    for (index, piece) in pieces.iter().enumerate() {
+    for index in met(simd, pieces, sample.covered, low, high) {
+        let piece = &pieces[index];
         let (start, end) = (f32x8::splat(simd, piece.start), f32x8::splat(simd, piece.end));
         let from = low.max(start).min(end);
         let to = high.max(start).min(end);

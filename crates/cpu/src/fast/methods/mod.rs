@@ -1,6 +1,8 @@
 //! From a block's segments to light: the integration methods on eight lanes, one a file.
 
-use fearless_simd::{Simd, f32x8, prelude::*};
+use std::ops::Range;
+
+use fearless_simd::{Simd, f32x8, mask32x8, prelude::*};
 
 mod average;
 mod cumulative;
@@ -56,9 +58,17 @@ pub(crate) fn value<S: Simd>(simd: S, piece: &LocalPiece, scalar: f32x8<S>) -> (
     (at(simd, piece.extinction, distance), color)
 }
 
-/// Extinction and color at scalars within the cell's range: a search among its few pieces.
+/// Extinction and color at scalars within the cell's range.
+///
+/// - `covered`: the lanes that count
 #[inline(always)]
-fn transfer_at<S: Simd>(simd: S, pieces: &[LocalPiece], scalar: f32x8<S>) -> (f32x8<S>, [f32x8<S>; 3]) {
+fn transfer_at<S: Simd>(
+    simd: S,
+    pieces: &[LocalPiece],
+    covered: mask32x8<S>,
+    scalar: f32x8<S>,
+) -> (f32x8<S>, [f32x8<S>; 3]) {
+    let pieces = &pieces[met(simd, pieces, covered, scalar, scalar)];
     let (mut extinction, mut color) = value(simd, &pieces[0], scalar);
     for piece in &pieces[1..] {
         let is_here = scalar.simd_ge(f32x8::splat(simd, piece.start));
@@ -71,4 +81,24 @@ fn transfer_at<S: Simd>(simd: S, pieces: &[LocalPiece], scalar: f32x8<S>) -> (f3
         }
     }
     (extinction, color)
+}
+
+/// Pieces of a cell that are run through rather than searched: with more of them, a coarse cell on a fine transfer function, a block sees few of many.
+const FEW_PIECES: usize = 4;
+
+/// Those of a cell's pieces that lanes may meet between two scalars; at least one.
+///
+/// - `low`, `high`: in lanes that are not `covered` any numbers
+#[inline(always)]
+fn met<S: Simd>(simd: S, pieces: &[LocalPiece], covered: mask32x8<S>, low: f32x8<S>, high: f32x8<S>) -> Range<usize> {
+    if pieces.len() <= FEW_PIECES {
+        return 0..pieces.len();
+    }
+    let lowest = covered.select(low, f32x8::splat(simd, f32::INFINITY));
+    let highest = covered.select(high, f32x8::splat(simd, f32::NEG_INFINITY));
+    let (lowest, highest) = (lowest.reduce_min(), highest.reduce_max());
+    // A scalar on a cut belongs to the piece above; beyond the ends the first and the last piece go on.
+    let last = pieces.len() - 1;
+    let first = pieces[..last].partition_point(|piece| piece.end <= lowest);
+    first..pieces.partition_point(|piece| piece.start <= highest).max(first + 1)
 }

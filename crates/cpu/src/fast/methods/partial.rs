@@ -16,8 +16,8 @@ impl Method for Partial {
 
     #[inline(always)]
     fn shade<S: Simd, M: Model>(simd: S, cell: CellOptics<'_>, sample: &Sample<S>) -> Light<S> {
-        let (extinction, front) = transfer_at(simd, cell.pieces, sample.front);
-        let (extinction_back, back) = transfer_at(simd, cell.pieces, sample.back);
+        let (extinction, front) = transfer_at(simd, cell.pieces, sample.covered, sample.front);
+        let (extinction_back, back) = transfer_at(simd, cell.pieces, sample.covered, sample.back);
         let weights = partial_weights(simd, extinction * sample.length, extinction_back * sample.length);
         let mut rgb = front;
         for (channel, back) in rgb.iter_mut().zip(back) {
