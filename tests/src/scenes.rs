@@ -8,7 +8,7 @@ use crate::meshes::Random;
 use crate::shapes::delaunay;
 
 /// Pixels a row, and rows.
-pub const SIZE: [u32; 2] = [96, 72];
+pub const SIZE: [u32; 2] = [160, 120];
 
 /// A mesh with a field, and what is to be drawn of it.
 #[derive(Debug)]

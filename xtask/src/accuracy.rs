@@ -46,7 +46,6 @@ enum Part {
     Integration,
     Orders,
     Estimates,
-    Costs,
 }
 
 /// Sizes of cells: a name, and how far apart the scalars at the ends of a segment are at most.
@@ -74,11 +73,9 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
         return Err("--write needs all methods and meshes; leave out --only".into());
     }
     if args.part == Some(Part::Estimates) {
-        return estimates::run(u64::from(args.samples));
+        return estimates::run(u64::from(args.samples), true);
     }
-    if args.part == Some(Part::Costs) {
-        return estimates::costs(u64::from(args.samples));
-    }
+
     if args.part != Some(Part::Orders) {
         let mut text = String::new();
         for model in OpticalModel::ALL {

@@ -6,7 +6,7 @@
 //! that its pixel has there. Errors are measured with that: a few hundred rays cost less than a picture.
 
 use rayon::prelude::*;
-use tetrascope_integrate::{RgbaAssoc, Segment};
+use tetrascope_integrate::{Integration, RgbaAssoc, Segment};
 use tetrascope_mesh::{TetMesh, ascending};
 use tetrascope_scene::{Plan, Progress, check_scalars};
 use tetrascope_view::View;
@@ -14,6 +14,7 @@ use tetrascope_view::View;
 use crate::RenderError;
 use crate::geometry::{ClipCell, PixelBox, PixelSpace, Points};
 use crate::reference::ray::{Fragment, Ray, RayComposer};
+use crate::reference::vertex::FanPainter;
 use crate::reference::{integrator, nearer_first};
 
 /// Cells that one task looks at: enough to hide its start, few enough to spread over the cores.
@@ -133,13 +134,18 @@ impl<'a> RayTracer<'a> {
     }
 
     /// Prepares what makes light of rays as the plan says: its table and its gradients, if it has any. The plan's view is not looked at, nor
-    /// are its order and its back end.
+    /// are its order and its back end. The integration that is defined on fans paints the pixel of a fan.
     ///
     /// # Errors
-    /// Those of [`render`](crate::reference::render).
+    /// [`RenderError::Plan`].
     pub fn shader(&self, plan: &Plan, progress: &dyn Progress) -> Result<RayShader<'_>, RenderError> {
-        let integrator = integrator(self.mesh, self.scalars, plan, progress)?;
-        Ok(RayShader { tracer: self, composer: RayComposer::new(integrator, plan, self.mesh, self.scalars) })
+        let with_fans = plan.integration.needs_fan();
+        // Not looked at where fans are painted.
+        let integration = if with_fans { Integration::Exact } else { plan.integration };
+        let integrator = integrator(self.mesh, self.scalars, &Plan { integration, ..plan.clone() }, progress)?;
+        let mut composer = RayComposer::new(integrator, plan, self.mesh, self.scalars);
+        composer.fans = with_fans.then(|| FanPainter::new(plan, self.space, self.mesh, self.scalars));
+        Ok(RayShader { tracer: self, composer })
     }
 }
 
@@ -196,15 +202,6 @@ pub struct RayShader<'a> {
 }
 
 impl RayShader<'_> {
-    /// Takes the integration of another plan; isosurfaces and light stay.
-    ///
-    /// # Errors
-    /// Those of [`RayTracer::shader`].
-    pub fn integrate_as(&mut self, plan: &Plan, progress: &dyn Progress) -> Result<(), RenderError> {
-        self.composer.integrator = integrator(self.tracer.mesh, self.tracer.scalars, plan, progress)?;
-        Ok(())
-    }
-
     /// The light of a ray, front to back.
     pub fn light(&self, rays: &Rays, ray: usize) -> RgbaAssoc {
         self.compose(rays, ray, rays.of(ray))

@@ -7,6 +7,7 @@
 
 mod light;
 pub(crate) mod ray;
+pub(crate) mod vertex;
 
 use rayon::prelude::*;
 use std::sync::atomic::{AtomicU64, Ordering};

@@ -3,7 +3,6 @@
 use rayon::prelude::*;
 use tetrascope_cpu::RenderError;
 use tetrascope_cpu::rays::{RayShader, RayTracer};
-use tetrascope_integrate::Integration;
 use tetrascope_mesh::TetMesh;
 use tetrascope_order::PixelSort;
 use tetrascope_scene::{Interpolation, Plan, Silent};
@@ -112,7 +111,7 @@ pub fn estimate(subject: &Subject<'_>, picture: &LinearImage) -> Result<ErrorEst
     let Bounds { integration, order, total } = bounds(subject, &tracer);
     let rest = |ray: usize| difference(&pixel(&probe, ray), &lights[ray][1]);
     let none = |cause| ErrorPart { cause, expected: 0.0, bound: Some(0.0) };
-    let interpolates = plan.interpolation != Interpolation::Exact || plan.integration.needs_fan();
+    let interpolates = plan.interpolation != Interpolation::Exact;
     let parts = [
         part(Cause::Integration, &|ray| difference(&lights[ray][0], &probe.exact[ray]), integration),
         part(Cause::Order, &|ray| difference(&lights[ray][1], &lights[ray][0]), order),
@@ -138,17 +137,7 @@ struct Method<'a> {
 impl<'a> Method<'a> {
     fn of(subject: &Subject<'a>, tracer: &'a RayTracer<'a>) -> Result<Self, RenderError> {
         let plan = subject.plan;
-        let integration = match plan.integration {
-            // Along a ray it is the mean of both ends, as at its thick vertex; what its fan makes of that is interpolation.
-            Integration::Vertex => Integration::Opacity2d,
-            other => other,
-        };
-        let plan_along_rays = Plan { integration, ..plan.clone() };
-        Ok(Self {
-            shader: tracer.shader(&plan_along_rays, &Silent)?,
-            order: subject.order,
-            sort: plan.order.pixel_sort(),
-        })
+        Ok(Self { shader: tracer.shader(plan, &Silent)?, order: subject.order, sort: plan.order.pixel_sort() })
     }
 
     /// The light of a ray in the right order, and in that of the picture.

@@ -4,6 +4,7 @@ mod quality;
 mod surfaces;
 
 use glam::DVec3;
+use tetrascope_integrate::{Integration, TableSettings};
 use tetrascope_order::{CycleRemedy, OrderMethod};
 use tetrascope_view::{Camera, Projection};
 
@@ -13,6 +14,7 @@ use crate::{Backend, Decision, GpuOptions, MeshFacts, Scene, SceneError, default
 
 use quality::{
     drop_what_the_order_has_not, fill_cycles, fill_gpu, fill_isosurface_method, fill_order, fill_tables, finds_rings,
+    name_tables,
 };
 use surfaces::{fill_isosurfaces, fill_light};
 
@@ -67,6 +69,48 @@ impl Completed {
         // What the back end brings with it, and no other decision, is new.
         let said = self.scene.plan()?.decisions.into_iter().filter(|decision| decision.subject == "path");
         self.decisions.extend(said);
+        Ok(())
+    }
+
+    /// Whether the integration is still open: the scene leaves it to the wanted error.
+    ///
+    /// [`Scene::plan`] then takes `exact`, which has none; a cheaper one may be near enough for this mesh and field.
+    pub fn leaves_integration_open(&self) -> bool {
+        // Isosurfaces that end an integral in a table have it chosen already.
+        self.scene.integration.is_none() && self.scene.chosen_integration().0 == Integration::Exact
+    }
+
+    /// The largest error wanted in a channel, 0 to 1.
+    pub fn max_error(&self) -> f64 {
+        self.file.quality.max_error.unwrap_or(MAX_ERROR)
+    }
+
+    /// Gives an integration that was left open its name, in the scene and in the file, with the reason.
+    ///
+    /// - `tables`: where it looks light up
+    ///
+    /// # Errors
+    /// Those of [`Scene::plan`] with this integration.
+    pub fn settle_integration(
+        &mut self,
+        integration: Integration,
+        tables: Option<TableSettings>,
+        reason: &str,
+    ) -> Result<(), SceneError> {
+        let mut scene = self.scene.clone();
+        (scene.integration, scene.tables) = (Some(integration), tables);
+        let plan = scene.plan()?;
+        self.scene = scene;
+        self.file.quality.integration = Choice::Named(integration);
+        name_tables(&mut self.file.quality, integration, tables);
+        self.decisions.retain(|decision| !matches!(decision.subject, "integration" | "tables"));
+        let said = plan.decisions.into_iter().filter(|decision| matches!(decision.subject, "integration" | "tables"));
+        self.decisions.extend(said.map(|mut decision| {
+            if decision.subject == "integration" {
+                reason.clone_into(&mut decision.reason);
+            }
+            decision
+        }));
         Ok(())
     }
 

@@ -1,9 +1,9 @@
 //! How wrong a picture of a field is.
 
-use tetrascope_estimate::{BlendingOrder, ErrorEstimate, Subject, Survey, estimate};
+use tetrascope_estimate::{BlendingOrder, ErrorEstimate, Subject, Survey, choose_integration, estimate};
 use tetrascope_mesh::CellId;
 use tetrascope_order::{CycleRemedy, Guarantee, OrderMethod};
-use tetrascope_scene::{Backend, Interpolation, Plan, Progress, Rendered};
+use tetrascope_scene::{Backend, Completed, Interpolation, Plan, Progress, Rendered};
 use tetrascope_view::LinearImage;
 
 use crate::threads::on_threads;
@@ -38,6 +38,24 @@ impl VolumeField<'_> {
             ..plan.clone()
         };
         Ok(self.render(&exact, progress)?.image)
+    }
+
+    /// Settles an integration that was left open: the cheapest within the error that the scene wants, with the reason.
+    ///
+    /// # Errors
+    /// [`Error::Scene`] and [`Error::Render`].
+    pub(crate) fn settle_integration(&self, completed: &mut Completed) -> Result<(), Error> {
+        let backend = completed.scene.backend;
+        if !completed.leaves_integration_open() || backend == Some(Backend::Reference) {
+            return Ok(());
+        }
+        if backend == Some(Backend::Gpu) {
+            // What methods take on a card is not known here, and the exact one has no error.
+            return Ok(());
+        }
+        let plan = completed.scene.plan()?;
+        let choice = choose_integration(self.mesh(), &self.on_mesh.scalars, &plan, completed.max_error())?;
+        Ok(completed.settle_integration(choice.integration, choice.tables, &choice.reason)?)
     }
 
     /// What its cells ask of an integration.

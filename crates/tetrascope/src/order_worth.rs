@@ -32,6 +32,7 @@ impl VolumeField<'_> {
             // Before a renderer asks what is known of the mesh.
             self.read_kept_heights(completed)?;
             self.settle_backend(completed)?;
+            self.settle_integration(completed)?;
             self.settle_order(completed)
         })??;
         let mut plan = completed.scene.plan()?;

@@ -1,107 +1,234 @@
-//! Estimates of errors against the errors themselves, over scenes of chance.
+//! Estimates of errors against the errors themselves, and what `auto` takes against the fastest that would do, over scenes of chance and
+//! the reference scenes.
 
-use tetrascope::{ErrorFigures, Integration, OrderMethod, Plan, Silent, TableSettings};
+use std::fmt::Write as _;
+use std::path::Path;
+
+use tetrascope::{
+    Choice, ErrorFigures, Integration, LinearImage, OrderMethod, Plan, SceneFile, Silent, TableSettings, Volume,
+    VolumeField, resolve_path, short,
+};
 use tetrascope_tests::scenes::random_scene;
 
 use crate::Failure;
 
-pub(super) fn run(scenes: u64) -> Result<(), Failure> {
+/// Errors that are wished for.
+const WISHES: [f64; 3] = [1.0 / 255.0, 1e-3, 1e-4];
+
+/// Frames of each setting; the fastest counts, as others use the machine.
+const FRAMES: usize = 5;
+
+/// A scene with what it is called.
+struct Subject {
+    name: String,
+    volume: Volume,
+    scene: SceneFile,
+}
+
+/// What a setting came to.
+struct Outcome {
+    name: String,
+    plan: Plan,
+    truth: f64,
+    expected: f64,
+    bound: f64,
+    /// Whether the integration alone stays within its bound.
+    parts_hold: bool,
+    /// Seconds of a picture, its table included.
+    seconds: f64,
+}
+
+pub(super) fn run(scenes: u64, detail: bool) -> Result<(), Failure> {
+    let mut tally = Tally::default();
     for seed in 0..scenes {
         let made = random_scene(seed);
-        let field = made.volume.field(None)?;
-        let mut completed = made.scene.complete(&field.facts)?;
-        let base = field.plan(&mut completed)?;
-        let exact = field.reference_picture(&base, &Silent)?;
-        for (integration, order) in [
-            (Integration::Exact, base.order),
-            (Integration::Exact, OrderMethod::Centroid),
-            (Integration::Exact, OrderMethod::KBuffer { window: 4 }),
-            (Integration::Average, base.order),
-            (Integration::Opacity2d, base.order),
-            (Integration::Partial, base.order),
-            (Integration::Cumulative, base.order),
-            (Integration::Table2d, base.order),
-            (Integration::Table3d, base.order),
-            (Integration::Vertex, base.order),
-        ] {
-            if !integration.covers(base.model) {
-                continue;
-            }
-            let plan = Plan { integration, order, tables: TableSettings::of(integration), ..base.clone() };
-            let rendered = field.render(&plan, &Silent)?;
-            let again = field.render(&plan, &Silent)?;
-            let time: f64 = again.timings.iter().map(|(_, t)| t.as_secs_f64()).sum();
-            let truth = ErrorFigures::between(&rendered.image, &exact).map_or(0.0, |f| f.largest);
-            let start = std::time::Instant::now();
-            let e = field.estimate_error(&plan, &rendered)?;
-            let took = start.elapsed().as_secs_f64();
-            println!(
-                "{seed} {} {} {} {} truth {truth:.3e} expected {:.3e} ratio {:.3} bound {:.2e} parts {} ms {:.3} estms {:.3} frags {}",
-                made.transfer,
-                base.model,
-                integration,
-                order,
-                e.expected,
-                e.expected / truth,
-                e.bound,
-                e.parts
-                    .map(|p| format!("{}:{:.1e}/{:.1e}", p.cause, p.expected, p.bound.unwrap_or(f64::NAN)))
-                    .join(" "),
-                time * 1e3,
-                took * 1e3,
-                rendered.counts.fragments
-            );
-        }
+        let name = format!("random {seed} ({}, {})", made.transfer, made.scene.optics.model);
+        tally.add(&Subject { name, volume: made.volume, scene: made.scene }, detail)?;
     }
+    let references = Path::new("../shared/reference");
+    if references.is_dir() {
+        for file in
+            ["cube5", "bluntfin", "bluntfin-inside", "bluntfin-isosurfaces", "combustor", "block", "fire", "cyclic"]
+        {
+            let path = references.join(file).with_extension("toml");
+            let scene = SceneFile::parse(&std::fs::read_to_string(&path)?, &path)?;
+            let solution = scene.mesh.solution.as_ref().map(|path| resolve_path(references, path));
+            let volume = Volume::load(&resolve_path(references, &scene.mesh.path), solution.as_deref())?;
+            tally.add(&Subject { name: file.to_owned(), volume, scene }, detail)?;
+        }
+    } else {
+        eprintln!("ATTENTION: there is no {}; the reference scenes are left out", references.display());
+    }
+    println!("{tally}");
     Ok(())
 }
 
-/// Times of methods on scenes of chance, one thread.
-pub(super) fn costs(scenes: u64) -> Result<(), Failure> {
-    for seed in 0..scenes {
-        let mut made = random_scene(seed);
-        (made.scene.image.width, made.scene.image.height) = (256, 192);
-        let field = made.volume.field(None)?;
-        let mut completed = made.scene.complete(&field.facts)?;
-        completed.scene.threads = Some(1);
-        let base = field.plan(&mut completed)?;
-        let survey = field.survey(&base);
-        let plans: Vec<Plan> = Integration::ALL
-            .into_iter()
-            .filter(|i| i.covers(base.model))
-            .map(|integration| Plan { integration, tables: TableSettings::of(integration), ..base.clone() })
-            .collect();
-        let mut best = vec![f64::INFINITY; plans.len()];
-        let mut raster = vec![f64::INFINITY; plans.len()];
-        let mut counts = Vec::new();
-        for turn in 0..6 {
-            for (plan, (best, raster)) in plans.iter().zip(best.iter_mut().zip(&mut raster)) {
-                let rendered = field.render(plan, &Silent)?;
-                let time: f64 = rendered.timings.iter().map(|(_, t)| t.as_secs_f64()).sum();
-                let last: f64 = rendered.timings.last().map_or(0.0, |(_, t)| t.as_secs_f64());
-                if turn == 0 {
-                    counts.push(rendered.counts);
-                } else {
-                    *best = best.min(time);
-                    *raster = raster.min(last);
-                }
-            }
-        }
-        for (i, plan) in plans.iter().enumerate() {
-            println!(
-                "{seed} {} {} {} us {:.2} raster {:.2} frags {} drawn {} met {:.3} pieces {:.3} most {}",
-                made.transfer,
-                plan.model,
-                plan.integration,
-                best[i] * 1e6,
-                raster[i] * 1e6,
-                counts[i].fragments,
-                counts[i].drawn,
-                survey.pieces_met,
-                survey.pieces,
-                survey.most_pieces
-            );
+/// Every integration in the right order, and other orders with the exact one.
+fn settings(base: &Plan) -> Vec<(String, Plan)> {
+    let mut settings = Vec::new();
+    for integration in Integration::ALL.into_iter().rev() {
+        let plan = Plan { integration, tables: TableSettings::of(integration), ..base.clone() };
+        settings.push((integration.to_string(), plan));
+    }
+    for order in [
+        OrderMethod::None,
+        OrderMethod::Centroid,
+        OrderMethod::Bucket { slabs: 20 },
+        OrderMethod::KBuffer { window: 4 },
+    ] {
+        if order != base.order {
+            settings.push((format!("exact, {order}"), Plan { order, ..base.clone() }));
         }
     }
-    Ok(())
+    settings.retain(|(_, plan)| plan.check().is_ok());
+    settings
+}
+
+fn outcomes(field: &VolumeField<'_>, base: &Plan, exact: &LinearImage) -> Result<Vec<Outcome>, Failure> {
+    let mut outcomes = Vec::new();
+    for (name, plan) in settings(base) {
+        let rendered = field.render(&plan, &Silent)?;
+        let truth = ErrorFigures::between(&rendered.image, exact).ok_or("a picture without pixels")?.largest;
+        let estimate = field.estimate_error(&plan, &rendered)?;
+        let tabulated = rendered.timings.iter().filter(|(stage, _)| *stage == tetrascope::Stage::Tabulate);
+        let tabulated: f64 = tabulated.map(|(_, time)| time.as_secs_f64()).sum();
+        let parts_hold =
+            estimate.parts.iter().all(|part| part.bound.is_none_or(|bound| part.expected <= 3.0 * bound + 1e-9));
+        outcomes.push((
+            tabulated,
+            Outcome {
+                name,
+                plan,
+                truth,
+                expected: estimate.expected,
+                bound: estimate.bound,
+                parts_hold,
+                seconds: f64::INFINITY,
+            },
+        ));
+    }
+    for _ in 0..FRAMES {
+        for (_, outcome) in &mut outcomes {
+            let rendered = field.render(&outcome.plan, &Silent)?;
+            let seconds: f64 = rendered.timings.iter().map(|(_, time)| time.as_secs_f64()).sum();
+            outcome.seconds = outcome.seconds.min(seconds);
+        }
+    }
+    Ok(outcomes
+        .into_iter()
+        .map(|(tabulated, outcome)| Outcome { seconds: outcome.seconds + tabulated, ..outcome })
+        .collect())
+}
+
+#[derive(Default)]
+struct Tally {
+    settings: usize,
+    within: usize,
+    below: usize,
+    above: usize,
+    bounds_broken: usize,
+    parts_broken: usize,
+    /// For each wish: scenes, those that meet it, those within 1.3 of the fastest, and the ratios.
+    wishes: [(usize, usize, Vec<f64>); 3],
+}
+
+impl Tally {
+    fn add(&mut self, subject: &Subject, detail: bool) -> Result<(), Failure> {
+        let field = subject.volume.field(subject.scene.mesh.field.as_deref())?;
+        let mut scene = subject.scene.clone();
+        scene.quality.integration = Choice::Named(Integration::Exact);
+        let mut completed = scene.complete(&field.facts)?;
+        let base = field.plan(&mut completed)?;
+        let exact = field.reference_picture(&base, &Silent)?;
+        let outcomes = outcomes(&field, &base, &exact)?;
+        for outcome in &outcomes {
+            let ratio = outcome.expected / outcome.truth;
+            self.settings += 1;
+            // A right picture is right, whatever was expected.
+            let is_below = outcome.truth > outcome.expected;
+            let is_above = outcome.truth > 0.0 && ratio > 10.0;
+            self.below += usize::from(is_below);
+            self.above += usize::from(is_above);
+            self.within += usize::from(!is_below && !is_above);
+            self.bounds_broken += usize::from(outcome.truth > outcome.bound);
+            self.parts_broken += usize::from(!outcome.parts_hold);
+            if detail {
+                println!(
+                    "{}: {}: error {:.2e}, expected {:.2e} ({:.2}), at most {:.2e}, {:.3} ms{}",
+                    subject.name,
+                    outcome.name,
+                    outcome.truth,
+                    outcome.expected,
+                    ratio,
+                    outcome.bound,
+                    1e3 * outcome.seconds,
+                    if is_below || is_above || !outcome.parts_hold || outcome.truth > outcome.bound {
+                        " OUT"
+                    } else {
+                        ""
+                    }
+                );
+            }
+        }
+        for (wish, (scenes, met, ratios)) in WISHES.into_iter().zip(&mut self.wishes) {
+            let mut scene = subject.scene.clone();
+            (scene.quality.integration, scene.quality.max_error) = (Choice::Auto, Some(wish));
+            let mut completed = scene.complete(&field.facts)?;
+            let plan = field.plan(&mut completed)?;
+            let taken = outcomes.iter().find(|o| o.plan.integration == plan.integration && o.plan.order == plan.order);
+            let taken = taken.ok_or("auto took what was not measured")?;
+            let fastest = outcomes.iter().filter(|o| o.truth <= wish).min_by(|a, b| a.seconds.total_cmp(&b.seconds));
+            *scenes += 1;
+            *met += usize::from(taken.truth <= wish);
+            let ratio = fastest.map_or(1.0, |fastest| taken.seconds / fastest.seconds);
+            if detail {
+                println!(
+                    "{}: wish {}: {} with error {:.2e} in {:.3} ms; fastest {} {:.2}{}",
+                    subject.name,
+                    short(wish),
+                    taken.name,
+                    taken.truth,
+                    1e3 * taken.seconds,
+                    fastest.map_or("none", |fastest| &fastest.name),
+                    ratio,
+                    if taken.truth > wish { " MISSED" } else { "" }
+                );
+            }
+            ratios.push(ratio);
+        }
+        Ok(())
+    }
+}
+
+impl std::fmt::Display for Tally {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        let share =
+            |part: usize, all: usize| format!("{} of {} ({:.1} %)", part, all, 100.0 * part as f64 / all.max(1) as f64);
+        writeln!(f, "estimates between once and ten times the error: {}", share(self.within, self.settings))?;
+        writeln!(
+            f,
+            "  below the error: {}; above ten times: {}",
+            share(self.below, self.settings),
+            share(self.above, self.settings)
+        )?;
+        writeln!(f, "bounds of the whole that were broken: {}; of parts: {}", self.bounds_broken, self.parts_broken)?;
+        for (wish, (scenes, met, ratios)) in WISHES.into_iter().zip(&self.wishes) {
+            let mut ratios = ratios.clone();
+            ratios.sort_by(f64::total_cmp);
+            let at = |share: f64| ratios.get((share * (ratios.len() - 1) as f64) as usize).copied().unwrap_or(1.0);
+            let near = ratios.iter().filter(|ratio| **ratio <= 1.3).count();
+            let mut line = String::new();
+            write!(line, "auto at {}: met in {}; ", short(wish), share(*met, *scenes))?;
+            write!(
+                line,
+                "within 1.3 of the fastest in {}; ratio median {:.2}, 95 % {:.2}, most {:.2}",
+                share(near, *scenes),
+                at(0.5),
+                at(0.95),
+                at(1.0)
+            )?;
+            writeln!(f, "{line}")?;
+        }
+        Ok(())
+    }
 }

@@ -7,6 +7,7 @@ use tetrascope_scene::{Gradients, Plan};
 use tetrascope_view::View;
 
 use super::light::Light;
+use super::vertex::FanPainter;
 use crate::domain::scalar_range;
 use crate::geometry::PixelSpace;
 
@@ -24,7 +25,7 @@ pub(crate) struct Fragment {
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Ray {
     /// Where it is in pixel space.
-    center: [f64; 2],
+    pub(crate) center: [f64; 2],
     is_perspective: bool,
     /// World length of one unit of depth.
     pub(crate) stretch: f64,
@@ -54,6 +55,8 @@ pub(crate) struct RayComposer<'a> {
     pub(crate) integrator: Integrator,
     surfaces: Option<Surfaces>,
     light: Option<Light<'a>>,
+    /// In the place of the integrator, where fans are painted.
+    pub(crate) fans: Option<FanPainter<'a>>,
 }
 
 /// Isosurfaces in a field.
@@ -113,6 +116,7 @@ impl<'a> RayComposer<'a> {
             integrator,
             surfaces: surfaces.map(|surfaces| Surfaces::new(surfaces, mesh, scalars)),
             light: lit.map(|lighting| Light::new(lighting, needed, mesh, scalars)),
+            fans: None,
         }
     }
 
@@ -184,7 +188,10 @@ impl<'a> RayComposer<'a> {
         part: &Segment,
         corners: &impl Fn(u32) -> [DVec3; 4],
     ) -> RgbaAssoc {
-        let light = self.integrator.integrate(part);
+        let light = match &self.fans {
+            Some(fans) => fans.light(ray, fragment, &corners(fragment.cell), part),
+            None => self.integrator.integrate(part),
+        };
         let Some(source) = self.light.as_ref().filter(|source| source.lights_volume()) else { return light };
         let middle = ray.point(fragment, 0.5);
         let intensity = source.intensity(fragment.cell, &corners(fragment.cell), middle, ray.to_eye);
@@ -217,6 +224,7 @@ mod tests {
                 .unwrap(),
             surfaces: Some(Surfaces { set, slack: 0.0 }),
             light: None,
+            fans: None,
         };
         let fragments: Vec<Fragment> =
             fragments.iter().map(|&(depth, scalar)| Fragment { depth, scalar, cell: 0 }).collect();

@@ -3,7 +3,7 @@
 use tetrascope_integrate::{Integration, LengthAxis, TableSettings};
 use tetrascope_order::{CycleRemedy, OrderMethod};
 
-use crate::file::{Choice, IsosurfaceMethodName, QualitySection, SceneFile};
+use crate::file::{Choice, IsosurfaceMethodName, LengthAxisName, QualitySection, SceneFile};
 use crate::{Backend, GpuOptions, GpuPath, IsosurfaceMethod, SceneError, TargetBits};
 
 /// Takes a key that has no effect away, and says so if it was there.
@@ -115,6 +115,17 @@ pub(super) fn fill_tables(
     let lengths = *section.table_lengths.get_or_insert(asked.unwrap_or(usual.lengths));
     let length_axis = LengthAxis::from(*section.length_axis.get_or_insert_default());
     Some(TableSettings { scalars, lengths, length_axis })
+}
+
+/// Writes a table's sizes into the file, as far as the integration has such axes.
+pub(super) fn name_tables(section: &mut QualitySection, integration: Integration, tables: Option<TableSettings>) {
+    let with_lengths = tables.filter(|_| integration == Integration::Table3d);
+    section.table_size = tables.map(|tables| tables.scalars);
+    section.table_lengths = with_lengths.map(|tables| tables.lengths);
+    section.length_axis = with_lengths.map(|tables| match tables.length_axis {
+        LengthAxis::Linear => LengthAxisName::Linear,
+        LengthAxis::Logarithmic => LengthAxisName::Logarithmic,
+    });
 }
 
 pub(super) fn fill_isosurface_method(file: &mut SceneFile, warnings: &mut Vec<String>) -> IsosurfaceMethod {
