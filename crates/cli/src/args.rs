@@ -145,16 +145,12 @@ pub(crate) struct CheckArgs {
     pub(crate) json: bool,
 }
 
+/// A scene: a file of one or a mesh, and the options that go over what it says.
 #[derive(Debug, Args)]
-#[command(after_help = RENDER_EXAMPLES)]
-pub(crate) struct RenderArgs {
+pub(crate) struct SceneArgs {
     /// A scene file (.toml, .json), a mesh file, or a PLOT3D grid and its solution; builtin:rings is a sample
     #[arg(required = true, num_args = 1..=2, value_name = "INPUT")]
     pub(crate) input: Vec<PathBuf>,
-    /// Picture to write: .png (8-bit sRGB over the background) or .exr (32-bit linear, premultiplied); may be repeated
-    /// [default: tetrascope.png]
-    #[arg(short, long = "output", value_name = "IMAGE")]
-    pub(crate) output: Vec<PathBuf>,
     /// Array to show: a name, or NAME:0, NAME:x, NAME:mag of a vector [default: the first scalar point array]
     #[arg(long, value_name = "NAME")]
     pub(crate) field: Option<String>,
@@ -236,6 +232,17 @@ pub(crate) struct RenderArgs {
     /// Number of threads [default: one a core]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..), help_heading = "Method")]
     pub(crate) threads: Option<u16>,
+}
+
+#[derive(Debug, Args)]
+#[command(after_help = RENDER_EXAMPLES)]
+pub(crate) struct RenderArgs {
+    #[command(flatten)]
+    pub(crate) scene: SceneArgs,
+    /// Picture to write: .png (8-bit sRGB over the background) or .exr (32-bit linear, premultiplied); may be repeated
+    /// [default: tetrascope.png]
+    #[arg(short, long = "output", value_name = "IMAGE")]
+    pub(crate) output: Vec<PathBuf>,
 
     /// Write a scene file (.toml, .json) with every default as a number
     #[arg(long, value_name = "FILE", help_heading = "Report")]
@@ -419,8 +426,8 @@ mod tests {
         let negative = ["--eye", "-1,-2,3", "--extinction", "-1:0;1:2", "--isosurface", "-1:1,1,1"];
         let cli = Cli::try_parse_from([&["tetrascope", "render", "a.vtu"], &negative[..]].concat());
         let Some(Command::Render(args)) = cli.unwrap().command else { panic!("not render") };
-        assert_eq!(args.camera.eye, Some([-1.0, -2.0, 3.0]));
-        assert_eq!(args.extinction, Some(Points(vec![[-1.0, 0.0], [1.0, 2.0]])));
-        assert_eq!(args.isosurface[0].value, -1.0);
+        assert_eq!(args.scene.camera.eye, Some([-1.0, -2.0, 3.0]));
+        assert_eq!(args.scene.extinction, Some(Points(vec![[-1.0, 0.0], [1.0, 2.0]])));
+        assert_eq!(args.scene.isosurface[0].value, -1.0);
     }
 }
