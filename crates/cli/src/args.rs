@@ -32,8 +32,9 @@ Examples:
   tetrascope check case.vtu                which visibility orders are right for it
   tetrascope render case.vtu               draw it, with defaults that fit any scale
   tetrascope render scene.toml -o a.png    draw what a scene file says
+  tetrascope compare a.exr b.exr           how far two pictures are apart
 
-Exit codes: 0 good, 1 wrong input, 2 wrong usage.";
+Exit codes: 0 good, 1 wrong input, 2 wrong usage, 3 pictures differ by more than a threshold.";
 
 #[derive(Debug, Subcommand)]
 pub(crate) enum Command {
@@ -45,6 +46,8 @@ pub(crate) enum Command {
     Devices(DevicesArgs),
     /// Say which visibility orders are right for a mesh, and where and by how much the others are wrong.
     Check(Box<CheckArgs>),
+    /// Say how far two pictures are apart.
+    Compare(CompareArgs),
 }
 
 const RENDER_EXAMPLES: &str = "\
@@ -279,6 +282,72 @@ pub(crate) struct DevicesArgs {
     pub(crate) json: bool,
 }
 
+const COMPARE_EXAMPLES: &str = "\
+Examples:
+  tetrascope compare fast.exr exact.exr
+  tetrascope compare a.png b.png --threshold 1/255 -o difference.png
+  tetrascope compare a.exr b.exr --figure rms --threshold 1e-4 --json
+
+Two .exr are compared in linear floats, all four channels; two .png by their encoded values, 0 to 1. One of each: the .exr is laid over
+the background and encoded to 8-bit sRGB as `render` writes a .png, and then both are compared as that. The content decides, not the name.
+
+Exit codes: 0 good, 1 wrong input (pictures of different sizes, too), 2 wrong usage, 3 the figure is above the threshold.";
+
+/// What is compared with a threshold.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
+pub(crate) enum Figure {
+    /// The largest error of any channel of any pixel
+    Largest,
+    /// The root of the mean square over all channels
+    Rms,
+    /// What 999 of 1000 pixels do not exceed
+    #[value(name = "p99.9")]
+    Percentile,
+}
+
+#[derive(Debug, Args)]
+#[command(after_help = COMPARE_EXAMPLES)]
+pub(crate) struct CompareArgs {
+    /// A picture: .png or .exr
+    #[arg(value_name = "A")]
+    pub(crate) picture: PathBuf,
+    /// What it is compared with: .png or .exr, of the same size
+    #[arg(value_name = "B")]
+    pub(crate) other: PathBuf,
+    /// Picture of the difference: .png (the worst channel of every pixel, black up to 1e-5 and to white at 1 by the logarithm) or
+    /// .exr (absolute differences of all channels)
+    #[arg(short, long, value_name = "IMAGE")]
+    pub(crate) output: Option<PathBuf>,
+    /// Exit with 3 if the figure is above this: a number, or a fraction such as 1/255
+    #[arg(long, value_name = "T", value_parser = fraction, allow_hyphen_values = true)]
+    pub(crate) threshold: Option<f64>,
+    /// Which figure is held against the threshold
+    #[arg(long, value_name = "NAME", value_enum, default_value = "largest", requires = "threshold")]
+    pub(crate) figure: Figure,
+    /// Linear RGB behind an .exr that is compared with a .png [default: 0,0,0]
+    #[arg(long, value_name = "R,G,B", value_parser = vector)]
+    pub(crate) background: Option<[f64; 3]>,
+    /// Report on standard output as one JSON object
+    #[arg(long)]
+    pub(crate) json: bool,
+}
+
+/// A number that is not negative, or a fraction of two: `0.004`, `1e-3`, `1/255`.
+pub(crate) fn fraction(text: &str) -> Result<f64, String> {
+    let number = |part: &str| -> Result<f64, String> {
+        let part = part.trim();
+        part.parse().map_err(|_| format!("\"{part}\" is not a number; give one, or a fraction such as 1/255"))
+    };
+    let value = match text.split_once('/') {
+        Some((above, below)) => number(above)? / number(below)?,
+        None => number(text)?,
+    };
+    if !value.is_finite() {
+        return Err(format!("\"{text}\" is not a finite number"));
+    }
+    if value < 0.0 { Err(format!("\"{text}\" is negative")) } else { Ok(value) }
+}
+
 /// Control points of `N` numbers each; a type of its own, as a bare `Vec` would be taken for a repeated option.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Points<const N: usize>(pub(crate) Vec<[f64; N]>);
@@ -396,6 +465,16 @@ mod tests {
         assert_eq!(extinction_points("2:3").unwrap().0, [[2.0, 3.0]]);
         for wrong in ["", ";", "1", "1:2,3", "a:1", "1:nan", "1:2:3"] {
             assert!(extinction_points(wrong).is_err(), "{wrong}");
+        }
+    }
+
+    #[test]
+    fn fractions() {
+        for (text, value) in [("1/255", 1.0 / 255.0), ("0", 0.0), ("1e-3", 1e-3), (" 3 / 4 ", 0.75), ("0/5", 0.0)] {
+            assert_eq!(fraction(text), Ok(value), "{text}");
+        }
+        for wrong in ["", "/", "1/", "/2", "1/0", "0/0", "-1", "1/-2", "nan", "inf", "1/2/3", "a", "1 2"] {
+            assert!(fraction(wrong).is_err(), "{wrong}");
         }
     }
 

@@ -51,7 +51,9 @@ mod parse;
 mod plan;
 mod rendered;
 mod scene;
+mod shown;
 mod text;
+mod work;
 
 pub use backend::{Backend, GpuOptions, GpuPath, TargetBits, UnknownBackend, UnknownGpuPath};
 pub use blank::explain_blank;
@@ -76,7 +78,9 @@ pub use plan::{
 };
 pub use rendered::{BufferRole, Counts, DeviceBuffer, DeviceReport, OrderReport, Rendered, Stopwatch};
 pub use scene::Scene;
+pub use shown::{Shown, surfaces_near};
 pub use text::short;
+pub use work::{Bytes, Fragments, MapWork, TableWork, Work, WorkBuffer};
 
 #[cfg(all(test, feature = "file"))]
 mod defaults_tests;
