@@ -32,6 +32,7 @@ Examples:
   tetrascope check case.vtu                which visibility orders are right for it
   tetrascope render case.vtu               draw it, with defaults that fit any scale
   tetrascope render scene.toml -o a.png    draw what a scene file says
+  tetrascope plan scene.toml               what that would take, and why
   tetrascope compare a.exr b.exr           how far two pictures are apart
 
 Exit codes: 0 good, 1 wrong input, 2 wrong usage, 3 pictures differ by more than a threshold.";
@@ -46,6 +47,8 @@ pub(crate) enum Command {
     Devices(DevicesArgs),
     /// Say which visibility orders are right for a mesh, and where and by how much the others are wrong.
     Check(Box<CheckArgs>),
+    /// Say what would be done for a picture and what is left out, with reasons and cost; nothing is drawn.
+    Plan(Box<PlanArgs>),
     /// Say how far two pictures are apart.
     Compare(CompareArgs),
 }
@@ -282,10 +285,31 @@ pub(crate) struct DevicesArgs {
     pub(crate) json: bool,
 }
 
+const PLAN_EXAMPLES: &str = "\
+Examples:
+  tetrascope plan case.vtu
+  tetrascope plan scene.toml --integration table-3d --json
+  tetrascope plan case.vtu --extinction \"0:0; 0.4:0; 0.5:9; 0.6:0\"    how many cells show anything
+
+It takes what `render` takes. Cells and entries of tables are counted exactly, fragments are estimated and say so; memory is exact
+unless it says at most, at least or about. With --backend gpu and auto the device is asked what it can.
+Exit codes: 0 good, also for a picture that would be blank, 1 wrong input, 2 wrong usage.";
+
+#[derive(Debug, Args)]
+#[command(after_help = PLAN_EXAMPLES)]
+pub(crate) struct PlanArgs {
+    #[command(flatten)]
+    pub(crate) scene: SceneArgs,
+    /// Report on standard output as one JSON object
+    #[arg(long, help_heading = "Report")]
+    pub(crate) json: bool,
+}
+
 const COMPARE_EXAMPLES: &str = "\
 Examples:
   tetrascope compare fast.exr exact.exr
   tetrascope compare a.png b.png --threshold 1/255 -o difference.png
+  tetrascope plan scene.toml               what that would take, and why
   tetrascope compare a.exr b.exr --figure rms --threshold 1e-4 --json
 
 Two .exr are compared in linear floats, all four channels; two .png by their encoded values, 0 to 1. One of each: the .exr is laid over

@@ -8,6 +8,7 @@ mod check;
 mod compare;
 mod devices;
 mod info;
+mod plan;
 mod progress;
 mod render;
 mod report;
@@ -28,6 +29,7 @@ const fn help_of(command: Option<&Command>) -> &'static str {
         Some(Command::Info(_)) => "tetrascope info --help",
         Some(Command::Check(_)) => "tetrascope check --help",
         Some(Command::Devices(_)) => "tetrascope devices --help",
+        Some(Command::Plan(_)) => "tetrascope plan --help",
         Some(Command::Compare(_)) => "tetrascope compare --help",
     }
 }
@@ -58,6 +60,7 @@ fn main() -> ExitCode {
         Some(Command::Info(args)) => info::run(args),
         Some(Command::Check(args)) => check::run(args),
         Some(Command::Devices(args)) => devices::run(args),
+        Some(Command::Plan(args)) => plan::run(args),
         Some(Command::Compare(args)) => compare::run(args),
     };
     match done {

@@ -56,7 +56,7 @@ mod text;
 mod work;
 
 pub use backend::{Backend, GpuOptions, GpuPath, TargetBits, UnknownBackend, UnknownGpuPath};
-pub use blank::explain_blank;
+pub use blank::{explain_blank, foresee_blank};
 pub use check::{PlanError, check_scalars};
 #[cfg(feature = "file")]
 pub use complete::{Completed, MAX_ERROR};
