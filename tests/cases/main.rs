@@ -19,3 +19,4 @@ mod plan;
 mod real_meshes;
 mod references;
 mod saving;
+mod work;

@@ -2,6 +2,7 @@
 
 pub mod chords;
 pub mod compare;
+pub mod effects;
 pub mod golden;
 pub mod gpu;
 pub mod meshes;

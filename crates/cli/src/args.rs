@@ -32,8 +32,10 @@ Examples:
   tetrascope check case.vtu                which visibility orders are right for it
   tetrascope render case.vtu               draw it, with defaults that fit any scale
   tetrascope render scene.toml -o a.png    draw what a scene file says
+  tetrascope plan scene.toml               what that would take, and why
+  tetrascope compare a.exr b.exr           how far two pictures are apart
 
-Exit codes: 0 good, 1 wrong input, 2 wrong usage.";
+Exit codes: 0 good, 1 wrong input, 2 wrong usage, 3 pictures differ by more than a threshold.";
 
 #[derive(Debug, Subcommand)]
 pub(crate) enum Command {
@@ -45,6 +47,10 @@ pub(crate) enum Command {
     Devices(DevicesArgs),
     /// Say which visibility orders are right for a mesh, and where and by how much the others are wrong.
     Check(Box<CheckArgs>),
+    /// Say what would be done for a picture and what is left out, with reasons and cost; nothing is drawn.
+    Plan(Box<PlanArgs>),
+    /// Say how far two pictures are apart.
+    Compare(CompareArgs),
 }
 
 const RENDER_EXAMPLES: &str = "\
@@ -145,16 +151,12 @@ pub(crate) struct CheckArgs {
     pub(crate) json: bool,
 }
 
+/// A scene: a file of one or a mesh, and the options that go over what it says.
 #[derive(Debug, Args)]
-#[command(after_help = RENDER_EXAMPLES)]
-pub(crate) struct RenderArgs {
+pub(crate) struct SceneArgs {
     /// A scene file (.toml, .json), a mesh file, or a PLOT3D grid and its solution; builtin:rings is a sample
     #[arg(required = true, num_args = 1..=2, value_name = "INPUT")]
     pub(crate) input: Vec<PathBuf>,
-    /// Picture to write: .png (8-bit sRGB over the background) or .exr (32-bit linear, premultiplied); may be repeated
-    /// [default: tetrascope.png]
-    #[arg(short, long = "output", value_name = "IMAGE")]
-    pub(crate) output: Vec<PathBuf>,
     /// Array to show: a name, or NAME:0, NAME:x, NAME:mag of a vector [default: the first scalar point array]
     #[arg(long, value_name = "NAME")]
     pub(crate) field: Option<String>,
@@ -236,6 +238,17 @@ pub(crate) struct RenderArgs {
     /// Number of threads [default: one a core]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..), help_heading = "Method")]
     pub(crate) threads: Option<u16>,
+}
+
+#[derive(Debug, Args)]
+#[command(after_help = RENDER_EXAMPLES)]
+pub(crate) struct RenderArgs {
+    #[command(flatten)]
+    pub(crate) scene: SceneArgs,
+    /// Picture to write: .png (8-bit sRGB over the background) or .exr (32-bit linear, premultiplied); may be repeated
+    /// [default: tetrascope.png]
+    #[arg(short, long = "output", value_name = "IMAGE")]
+    pub(crate) output: Vec<PathBuf>,
 
     /// Write a scene file (.toml, .json) with every default as a number
     #[arg(long, value_name = "FILE", help_heading = "Report")]
@@ -270,6 +283,93 @@ pub(crate) struct DevicesArgs {
     /// Report on standard output as one JSON object
     #[arg(long)]
     pub(crate) json: bool,
+}
+
+const PLAN_EXAMPLES: &str = "\
+Examples:
+  tetrascope plan case.vtu
+  tetrascope plan scene.toml --integration table-3d --json
+  tetrascope plan case.vtu --extinction \"0:0; 0.4:0; 0.5:9; 0.6:0\"    how many cells show anything
+
+It takes what `render` takes. Cells and entries of tables are counted exactly, fragments are estimated and say so; memory is exact
+unless it says at most, at least or about. With --backend gpu and auto the device is asked what it can.
+Exit codes: 0 good, also for a picture that would be blank, 1 wrong input, 2 wrong usage.";
+
+#[derive(Debug, Args)]
+#[command(after_help = PLAN_EXAMPLES)]
+pub(crate) struct PlanArgs {
+    #[command(flatten)]
+    pub(crate) scene: SceneArgs,
+    /// Report on standard output as one JSON object
+    #[arg(long, help_heading = "Report")]
+    pub(crate) json: bool,
+}
+
+const COMPARE_EXAMPLES: &str = "\
+Examples:
+  tetrascope compare fast.exr exact.exr
+  tetrascope compare a.png b.png --threshold 1/255 -o difference.png
+  tetrascope plan scene.toml               what that would take, and why
+  tetrascope compare a.exr b.exr --figure rms --threshold 1e-4 --json
+
+Two .exr are compared in linear floats, all four channels; two .png by their encoded values, 0 to 1. One of each: the .exr is laid over
+the background and encoded to 8-bit sRGB as `render` writes a .png, and then both are compared as that. The content decides, not the name.
+
+Exit codes: 0 good, 1 wrong input (pictures of different sizes, too), 2 wrong usage, 3 the figure is above the threshold.";
+
+/// What is compared with a threshold.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
+pub(crate) enum Figure {
+    /// The largest error of any channel of any pixel
+    Largest,
+    /// The root of the mean square over all channels
+    Rms,
+    /// What 999 of 1000 pixels do not exceed
+    #[value(name = "p99.9")]
+    Percentile,
+}
+
+#[derive(Debug, Args)]
+#[command(after_help = COMPARE_EXAMPLES)]
+pub(crate) struct CompareArgs {
+    /// A picture: .png or .exr
+    #[arg(value_name = "A")]
+    pub(crate) picture: PathBuf,
+    /// What it is compared with: .png or .exr, of the same size
+    #[arg(value_name = "B")]
+    pub(crate) other: PathBuf,
+    /// Picture of the difference: .png (the worst channel of every pixel, black up to 1e-5 and to white at 1 by the logarithm) or
+    /// .exr (absolute differences of all channels)
+    #[arg(short, long, value_name = "IMAGE")]
+    pub(crate) output: Option<PathBuf>,
+    /// Exit with 3 if the figure is above this: a number, or a fraction such as 1/255
+    #[arg(long, value_name = "T", value_parser = fraction, allow_hyphen_values = true)]
+    pub(crate) threshold: Option<f64>,
+    /// Which figure is held against the threshold
+    #[arg(long, value_name = "NAME", value_enum, default_value = "largest", requires = "threshold")]
+    pub(crate) figure: Figure,
+    /// Linear RGB behind an .exr that is compared with a .png [default: 0,0,0]
+    #[arg(long, value_name = "R,G,B", value_parser = vector)]
+    pub(crate) background: Option<[f64; 3]>,
+    /// Report on standard output as one JSON object
+    #[arg(long)]
+    pub(crate) json: bool,
+}
+
+/// A number that is not negative, or a fraction of two: `0.004`, `1e-3`, `1/255`.
+pub(crate) fn fraction(text: &str) -> Result<f64, String> {
+    let number = |part: &str| -> Result<f64, String> {
+        let part = part.trim();
+        part.parse().map_err(|_| format!("\"{part}\" is not a number; give one, or a fraction such as 1/255"))
+    };
+    let value = match text.split_once('/') {
+        Some((above, below)) => number(above)? / number(below)?,
+        None => number(text)?,
+    };
+    if !value.is_finite() {
+        return Err(format!("\"{text}\" is not a finite number"));
+    }
+    if value < 0.0 { Err(format!("\"{text}\" is negative")) } else { Ok(value) }
 }
 
 /// Control points of `N` numbers each; a type of its own, as a bare `Vec` would be taken for a repeated option.
@@ -393,6 +493,16 @@ mod tests {
     }
 
     #[test]
+    fn fractions() {
+        for (text, value) in [("1/255", 1.0 / 255.0), ("0", 0.0), ("1e-3", 1e-3), (" 3 / 4 ", 0.75), ("0/5", 0.0)] {
+            assert_eq!(fraction(text), Ok(value), "{text}");
+        }
+        for wrong in ["", "/", "1/", "/2", "1/0", "0/0", "-1", "1/-2", "nan", "inf", "1/2/3", "a", "1 2"] {
+            assert!(fraction(wrong).is_err(), "{wrong}");
+        }
+    }
+
+    #[test]
     fn sizes() {
         assert_eq!(size("512"), Ok((512, 512)));
         assert_eq!(size("640x480"), Ok((640, 480)));
@@ -419,8 +529,8 @@ mod tests {
         let negative = ["--eye", "-1,-2,3", "--extinction", "-1:0;1:2", "--isosurface", "-1:1,1,1"];
         let cli = Cli::try_parse_from([&["tetrascope", "render", "a.vtu"], &negative[..]].concat());
         let Some(Command::Render(args)) = cli.unwrap().command else { panic!("not render") };
-        assert_eq!(args.camera.eye, Some([-1.0, -2.0, 3.0]));
-        assert_eq!(args.extinction, Some(Points(vec![[-1.0, 0.0], [1.0, 2.0]])));
-        assert_eq!(args.isosurface[0].value, -1.0);
+        assert_eq!(args.scene.camera.eye, Some([-1.0, -2.0, 3.0]));
+        assert_eq!(args.scene.extinction, Some(Points(vec![[-1.0, 0.0], [1.0, 2.0]])));
+        assert_eq!(args.scene.isosurface[0].value, -1.0);
     }
 }

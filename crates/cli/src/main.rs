@@ -1,12 +1,14 @@
 //! The program `tetrascope`: draws unstructured meshes as volumes.
 //!
 //! Reports go to standard output, warnings, errors and the progress bar to standard error. Exit codes: 0 good, 1 wrong input,
-//! 2 wrong usage.
+//! 2 wrong usage, 3 pictures differ by more than a threshold.
 
 mod args;
 mod check;
+mod compare;
 mod devices;
 mod info;
+mod plan;
 mod progress;
 mod render;
 mod report;
@@ -27,6 +29,8 @@ const fn help_of(command: Option<&Command>) -> &'static str {
         Some(Command::Info(_)) => "tetrascope info --help",
         Some(Command::Check(_)) => "tetrascope check --help",
         Some(Command::Devices(_)) => "tetrascope devices --help",
+        Some(Command::Plan(_)) => "tetrascope plan --help",
+        Some(Command::Compare(_)) => "tetrascope compare --help",
     }
 }
 
@@ -37,6 +41,8 @@ enum Failure {
     Usage(String),
     /// A file or a scene is wrong: exit code 1.
     Input(String),
+    /// Pictures differ by more than was allowed, which was reported: exit code 3.
+    Differs,
 }
 
 impl From<tetrascope::Error> for Failure {
@@ -54,6 +60,8 @@ fn main() -> ExitCode {
         Some(Command::Info(args)) => info::run(args),
         Some(Command::Check(args)) => check::run(args),
         Some(Command::Devices(args)) => devices::run(args),
+        Some(Command::Plan(args)) => plan::run(args),
+        Some(Command::Compare(args)) => compare::run(args),
     };
     match done {
         Ok(()) => ExitCode::SUCCESS,
@@ -66,5 +74,6 @@ fn main() -> ExitCode {
             report::error(&message);
             ExitCode::from(1)
         }
+        Err(Failure::Differs) => ExitCode::from(3),
     }
 }

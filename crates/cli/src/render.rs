@@ -9,7 +9,7 @@ use tetrascope::{
 };
 
 use crate::Failure;
-use crate::args::{CameraArgs, RenderArgs};
+use crate::args::{CameraArgs, RenderArgs, SceneArgs};
 use crate::progress::Bar;
 use crate::report::Report;
 use crate::scene_paths::{self, folder_of, is_scene};
@@ -18,17 +18,16 @@ use crate::scene_paths::{self, folder_of, is_scene};
 pub(crate) const DEFAULT_OUTPUT: &str = "tetrascope.png";
 
 pub(crate) fn run(args: &RenderArgs) -> Result<(), Failure> {
-    let (mut scene, base_dir) = scene_of_inputs(&args.input)?;
-    override_by_options(&mut scene, args);
+    let (scene, base_dir) = scene_of(&args.scene)?;
     let default_output = [PathBuf::from(DEFAULT_OUTPUT)];
     let outputs = if args.output.is_empty() { &default_output[..] } else { &args.output };
     let job = Job {
         scene,
-        scene_path: args.input.first().map(PathBuf::as_path).filter(|path| is_scene(path)),
+        scene_path: args.scene.file(),
         base_dir,
         outputs,
         write_scene: args.write_scene.as_deref(),
-        threads: args.threads.map(usize::from),
+        threads: args.scene.threads.map(usize::from),
         quiet: args.quiet,
         json: args.json,
         explain: args.explain,
@@ -143,6 +142,20 @@ pub(crate) fn wrong_scene(scene_path: Option<&Path>, error: tetrascope::Error) -
     }
 }
 
+/// The scene of inputs and options, and the folder that its paths are relative to.
+pub(crate) fn scene_of(args: &SceneArgs) -> Result<(SceneFile, PathBuf), Failure> {
+    let (mut scene, base_dir) = scene_of_inputs(&args.input)?;
+    override_by_options(&mut scene, args);
+    Ok((scene, base_dir))
+}
+
+impl SceneArgs {
+    /// The scene file, for messages; `None` where the input is a mesh.
+    pub(crate) fn file(&self) -> Option<&Path> {
+        self.input.first().map(PathBuf::as_path).filter(|path| is_scene(path))
+    }
+}
+
 /// A scene file with its folder, or a scene of nothing but a mesh.
 pub(crate) fn scene_of_inputs(inputs: &[PathBuf]) -> Result<(SceneFile, PathBuf), Failure> {
     match inputs {
@@ -178,7 +191,7 @@ pub(crate) fn override_camera(camera: &mut CameraSection, args: &CameraArgs) {
     }
 }
 
-fn override_by_options(scene: &mut SceneFile, args: &RenderArgs) {
+fn override_by_options(scene: &mut SceneFile, args: &SceneArgs) {
     fn set<T: Clone>(slot: &mut T, value: Option<&T>) {
         if let Some(value) = value {
             slot.clone_from(value);

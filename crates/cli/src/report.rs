@@ -5,8 +5,8 @@ use std::time::Duration;
 
 use serde_json::{Map, Value, json};
 use tetrascope::{
-    Backend, BufferRole, Completed, CycleRemedy, DeviceReport, GpuPath, Gradients, Integration, LengthAxis, OrderWorth,
-    Plan, Projection, Rendered, TargetBits, Volume, VolumeField, short,
+    Backend, BufferRole, Completed, CycleRemedy, DeviceReport, Gradients, Integration, LengthAxis, OrderWorth, Plan,
+    Projection, Rendered, TargetBits, Volume, VolumeField, short,
 };
 
 /// Collects what was done; people read it line by line as it happens, machines at the end.
@@ -298,8 +298,8 @@ fn memory_of(device: &DeviceReport, role: BufferRole, cells: u64) -> String {
 
 /// Pairs of a pixel and a tetrahedron, where somebody counts them.
 fn fragments(rendered: &Rendered) -> String {
-    let by_hardware = rendered.device.as_ref().is_some_and(|device| device.path == GpuPath::Triangles);
-    if by_hardware { "fragments not counted".to_owned() } else { format!("{} fragments", rendered.counts.fragments) }
+    let counts = &rendered.counts;
+    if counts.counts_fragments { format!("{} fragments", counts.fragments) } else { "fragments not counted".to_owned() }
 }
 
 /// Sizes of the integration's table; null if it has none.

@@ -164,6 +164,16 @@ fn render_here(mesh: &TetMesh, scalars: &[f64], plan: &Plan, progress: &dyn Prog
         cyclic: 0,
         sorted: fragments,
         most_held: 0,
+        counts_fragments: true,
+        ordered: 0,
+        table_entries: job.composer.integrator.table_entries(),
+        // It cuts rays at the surfaces where other back ends look them up.
+        map_entries: 0,
+        point_gradients: job.composer.light.as_ref().map_or(0, Light::point_gradients),
+        cell_gradients: None,
+        with_effects: None,
+        lit: None,
+        fans: 0,
     };
     let order = OrderReport { guarantee: Guarantee::Exact, rings: 0, rings_left: 0 };
     Ok(Rendered { image, timings: watch.finish(), counts, order, device: None })

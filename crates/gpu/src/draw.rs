@@ -184,6 +184,17 @@ impl<'a> Drawing<'a> {
             }
         }
         watch.lap(Stage::Rasterize);
+        counts.counts_fragments = self.path == Path::Compute;
+        counts.ordered = match self.source {
+            Source::AsTheyCome => 0,
+            Source::Centroids | Source::Power => counts.drawn,
+            // All of the mesh, whatever the view shows: the order is kept until the view changes.
+            Source::Made => counts.cells,
+        };
+        counts.table_entries = means.lookups.table_entries();
+        counts.map_entries = means.effects.map_entries();
+        counts.point_gradients = if means.gradients.is_some() { u64::from(renderer.mesh.point_count) } else { 0 };
+        counts.fans = if self.plan.integration.needs_fan() { counts.drawn } else { 0 };
         let guarantee = if sort == InPixels::All { Guarantee::Exact } else { guarantee };
         let rings_left = rings;
         Ok(Rendered {
@@ -200,10 +211,13 @@ impl<'a> Drawing<'a> {
         let (renderer, plan) = (self.renderer, self.plan);
         let effects = kept.effects(renderer, plan)?;
         let gradients = if effects.needs_gradients() { Some(kept.gradients(renderer)?) } else { None };
-        watch.lap(Stage::Prepare);
+        let has_table = plan.table_settings().is_some();
+        if has_table {
+            watch.lap(Stage::Prepare);
+        }
         let report = |done, total| self.progress.report(Stage::Tabulate, done, total);
         let lookups = kept.lookups(renderer, plan, &effects, &report)?;
-        watch.lap(Stage::Tabulate);
+        watch.lap(if has_table { Stage::Tabulate } else { Stage::Prepare });
         let pieces = match plan.integration {
             // Their light is in the table, and bindings are few.
             Integration::Table2d | Integration::Table3d => "integrate/no_pieces.wgsl",

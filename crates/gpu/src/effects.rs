@@ -180,6 +180,11 @@ impl Effects {
         EFFECT_CONSTANTS.iter().copied().chain(own).collect()
     }
 
+    /// Texels of the maps of isosurfaces; 0 without one.
+    pub(crate) fn map_entries(&self) -> u64 {
+        self.maps.as_ref().map_or(0, |maps| maps.entries())
+    }
+
     /// Bytes on the device, but for `gradients`.
     pub(crate) fn bytes(&self) -> u64 {
         let maps = self.maps.as_ref().map(|maps| maps.buffer());

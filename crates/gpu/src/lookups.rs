@@ -46,6 +46,7 @@ pub(crate) struct Lookups {
     optics: Buffer,
     pieces: Buffer,
     table: Option<Buffer>,
+    table_entries: u64,
     bytes: u64,
 }
 
@@ -148,6 +149,7 @@ impl Lookups {
             optics: gpu.uniform_of("optics", &optics),
             pieces: gpu.storage_of("pieces", &vectors),
             table,
+            table_entries: entries.len() as u64,
             bytes,
         })
     }
@@ -167,6 +169,11 @@ impl Lookups {
         let mut all = vec![("optics", self.optics.as_entire_binding()), ("pieces", self.pieces.as_entire_binding())];
         all.extend(self.table.as_ref().map(|table| ("table", table.as_entire_binding())));
         all
+    }
+
+    /// Number of entries of the table; 0 without one.
+    pub(crate) fn table_entries(&self) -> u64 {
+        self.table_entries
     }
 
     /// Bytes on the device.

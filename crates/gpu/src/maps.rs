@@ -92,6 +92,11 @@ impl Maps {
         self.passes
     }
 
+    /// Number of texels, of all maps together.
+    pub(crate) fn entries(&self) -> u64 {
+        (self.buffer.size() - size_of::<MapAxis>() as u64) / size_of::<[f32; 4]>() as u64
+    }
+
     pub(crate) fn buffer(&self) -> &Buffer {
         &self.buffer
     }

@@ -66,6 +66,15 @@ impl Integrator {
         Ok(Self { transfer: transfer.clone(), model, method })
     }
 
+    /// Number of entries of its table; 0 for methods without one.
+    pub fn table_entries(&self) -> u64 {
+        match &self.method {
+            Method::Table2d(table) => table.entries().len() as u64,
+            Method::Table3d(table) => table.entries().len() as u64,
+            _ => 0,
+        }
+    }
+
     /// The light of a segment.
     pub fn integrate(&self, segment: &Segment) -> RgbaAssoc {
         let (transfer, model) = (&self.transfer, self.model);

@@ -1,9 +1,9 @@
-//! Readers for meshes and writers for pictures.
+//! Readers for meshes, and readers and writers for pictures.
 //!
 //! [`read_mesh`] finds the reader by the file's content, then by its extension, and gives a [`Loaded`]: the dataset as the
 //! file has it and what was odd about it. Memory is never reserved from a count that the file merely declares.
 //! [`write_png`] and [`write_exr`] write to a temporary file beside the target and rename it, so that a failed run leaves
-//! no half-written picture; [`write_heights`] does the same for what the power order found out about a mesh.
+//! no half-written picture; [`read_picture`] reads either back; [`write_heights`] does the same for what the power order found out about a mesh.
 //!
 //! ```no_run
 //! use std::path::Path;
@@ -38,7 +38,7 @@ mod vtk;
 pub use error::IoError;
 pub use heights::{read_heights, write_heights};
 pub use open::{read_mesh, readers};
-pub use picture::{read_exr, write_exr, write_image, write_png};
+pub use picture::{PictureFile, PngImage, read_exr, read_picture, read_png, write_exr, write_image, write_png};
 pub use read::{Loaded, MeshReader, Source};
 
 /// Compiles the example of the README.

@@ -45,6 +45,11 @@ pub enum PixelSort {
 }
 
 impl OrderMethod {
+    /// Whether cells are sorted: not where they come as they are, or where pixels alone sort.
+    pub const fn sorts_cells(self) -> bool {
+        !matches!(self, Self::None | Self::PerPixel)
+    }
+
     /// The names of all methods.
     pub const NAMES: &'static [&'static str] =
         &["none", "bucket", "centroid", "power", "mpvo", "bsp-xmpvo", "k-buffer", "per-pixel"];

@@ -6,21 +6,18 @@ use tetrascope_view::View;
 use crate::text::short;
 use crate::{IsosurfacePlan, MeshFacts, Plan};
 
+/// One step of an 8-bit channel: what is below in all channels is not seen.
+const GRAY_LEVEL: f64 = 1.0 / 255.0;
+
 /// Reasons for which a plan gives a picture with nothing to see, each with a remedy; empty when none is known.
 ///
-/// Looks at the box around the mesh, the field's range, the isosurfaces and the transfer function, not at the mesh.
+/// Looks at the box around the mesh, the field's range, the isosurfaces and the transfer function, not at the mesh. For a picture that is
+/// blank: some of these make one likely only. [`foresee_blank`] has those that are certain.
 pub fn explain_blank(plan: &Plan, facts: &MeshFacts) -> Vec<String> {
-    let mut reasons = Vec::new();
     if let Some(side) = side_out_of_view(&plan.view, facts) {
-        reasons.push(format!(
-            "the camera does not see the mesh, which is {side}: the mesh lies between ({}) and ({}); aim the camera at its \
-             middle ({}), or leave eye and target out",
-            place(facts.lowest),
-            place(facts.highest),
-            place(facts.center())
-        ));
-        return reasons;
+        return vec![out_of_view(side, facts)];
     }
+    let mut reasons = Vec::new();
     if let Some(pixels) = size_in_pixels(&plan.view, facts)
         && pixels < 2.0
     {
@@ -31,37 +28,97 @@ pub fn explain_blank(plan: &Plan, facts: &MeshFacts) -> Vec<String> {
         Surfaces::Unseen(reason) => reasons.push(reason),
         Surfaces::None => {}
     }
+    reasons.extend(unseen_volume(plan, facts).or_else(|| too_thin(plan, facts)));
+    reasons
+}
+
+/// The reasons for which a plan is sure to give a picture with nothing to see, each with a remedy; empty where something may be seen.
+///
+/// Rests on bounds: on the box around the mesh, the longest way of a ray of this view through it, and the most that the transfer function has
+/// over the field's range. A plan without such a reason may still show nothing, for what only the mesh tells.
+pub fn foresee_blank(plan: &Plan, facts: &MeshFacts) -> Vec<String> {
+    if let Some(side) = side_out_of_view(&plan.view, facts) {
+        return vec![out_of_view(side, facts)];
+    }
+    let of_surfaces = match surfaces_that_are_seen(plan, facts) {
+        Surfaces::Seen => return Vec::new(),
+        Surfaces::Unseen(reason) => Some(reason),
+        Surfaces::None => None,
+    };
+    match unseen_volume(plan, facts) {
+        None => Vec::new(),
+        Some(reason) => of_surfaces.into_iter().chain([reason]).collect(),
+    }
+}
+
+fn out_of_view(side: &str, facts: &MeshFacts) -> String {
+    format!(
+        "the camera does not see the mesh, which is {side}: the mesh lies between ({}) and ({}); aim the camera at its middle ({}), or \
+         leave eye and target out",
+        place(facts.lowest),
+        place(facts.highest),
+        place(facts.center())
+    )
+}
+
+/// Where the field lies, beside the control points of the transfer function.
+fn ranges(plan: &Plan, facts: &MeshFacts) -> String {
     let (low, high) = facts.scalar_range;
     let (first, last) = plan.transfer.domain();
-    let range = format!(
-        "the field goes from {} to {}, the transfer function's control points from {} to {}",
-        short(low),
-        short(high),
-        short(first),
-        short(last)
-    );
-    let extinction = plan.transfer.max_extinction(low, high);
-    let emission = plan.transfer.max_emission(low, high);
+    let field = if low == high {
+        format!("the field is {} everywhere", short(low))
+    } else {
+        format!("the field goes from {} to {}", short(low), short(high))
+    };
+    let outside = if high < first || low > last { ", outside of them" } else { "" };
+    format!("{field}, the transfer function's control points from {} to {}{outside}", short(first), short(last))
+}
+
+/// Why the volume is under one gray level on every ray, if that is sure.
+fn unseen_volume(plan: &Plan, facts: &MeshFacts) -> Option<String> {
+    let (low, high) = facts.scalar_range;
+    let extinction = if plan.model.needs_extinction() { plan.transfer.max_extinction(low, high) } else { 0.0 };
     let adds_light = plan.model.color_is_per_length();
-    if adds_light && emission * facts.diagonal() < 1.0 / 255.0 && (extinction == 0.0 || !plan.model.needs_extinction())
-    {
-        reasons.push(format!(
-            "the color, which this optical model adds per length, is at most {} over the field's range: {range}",
-            short(emission)
-        ));
-    } else if !adds_light && extinction == 0.0 {
-        reasons.push(format!("the extinction is 0 over the field's whole range: {range}"));
-    } else if !adds_light && extinction * facts.diagonal() < 1.0 / 255.0 {
-        reasons.push(format!(
-            "the extinction, at most {} per unit of length, is too small for a mesh of diagonal {}: a visible one is about {}",
-            short(extinction),
-            short(facts.diagonal()),
-            short(crate::defaults::DIAGONAL_DEPTH / facts.diagonal())
-        ));
-    } else if let Some(reason) = too_thin(plan, facts, if adds_light { emission } else { extinction }) {
-        reasons.push(reason);
+    let emission = if adds_light { plan.transfer.max_emission(low, high) } else { 0.0 };
+    let longest = longest_way(&plan.view, facts);
+    // Colors above 1 shine through more than they hide.
+    let brightest =
+        if adds_light || !plan.model.needs_emission() { 1.0 } else { plan.transfer.max_emission(low, high).max(1.0) };
+    if (extinction * brightest).max(emission) * longest >= GRAY_LEVEL {
+        return None;
     }
-    reasons
+    Some(if adds_light {
+        format!(
+            "the color, which this optical model adds per length, is at most {} over the field's range, and a ray runs through at most {} \
+             of the mesh: under one gray level; {}",
+            short(emission),
+            short(longest),
+            ranges(plan, facts)
+        )
+    } else if extinction == 0.0 {
+        format!("the extinction is 0 over the field's whole range: {}", ranges(plan, facts))
+    } else {
+        format!(
+            "the extinction, at most {} per unit of length, is too small: a ray runs through at most {} of the mesh, which hides {} at \
+             most, under one gray level; an extinction that shows is about {}",
+            short(extinction),
+            short(longest),
+            short(extinction * longest),
+            short(crate::defaults::DIAGONAL_DEPTH / longest)
+        )
+    })
+}
+
+/// A length that no ray of a view exceeds in the box around the mesh; world length.
+fn longest_way(view: &View, facts: &MeshFacts) -> f64 {
+    let sides = facts.highest - facts.lowest;
+    let spread = if view.is_perspective { [view.half_width, view.half_height] } else { [0.0; 2] };
+    let stretch = (1.0 + spread[0] * spread[0] + spread[1] * spread[1]).sqrt();
+    // Along each axis a ray of direction d leaves the box after side / |d|; the least |d| of all rays of the picture.
+    let least = view.forward.abs() - view.right.abs() * spread[0] - view.up.abs() * spread[1];
+    let across = sides.to_array().into_iter().zip(least.to_array());
+    let ways = across.filter(|(_, least)| *least > 0.0).map(|(side, least)| side * stretch / least);
+    ways.fold(facts.diagonal(), f64::min)
 }
 
 /// What isosurfaces have to do with a blank picture.
@@ -91,16 +148,20 @@ fn surfaces_that_are_seen(plan: &Plan, facts: &MeshFacts) -> Surfaces {
     }
     // A ray that meets each of them once loses at most the sum of their opacities.
     let opacity: f64 = crossed.iter().map(|surface| surface.opacity).sum();
-    if opacity < 1.0 / 255.0 {
+    if opacity < GRAY_LEVEL {
         return Surfaces::Unseen(format!("the opacities of the isosurfaces add up to {} only", short(opacity)));
     }
     Surfaces::Seen
 }
 
-/// Whether the mesh is so thin that hardly anything adds up across it, though its diagonal is long enough.
-fn too_thin(plan: &Plan, facts: &MeshFacts, per_length: f64) -> Option<String> {
+/// Whether the mesh is so thin on one side that hardly anything adds up across it.
+fn too_thin(plan: &Plan, facts: &MeshFacts) -> Option<String> {
+    let (low, high) = facts.scalar_range;
+    let adds_light = plan.model.color_is_per_length();
+    let per_length =
+        if adds_light { plan.transfer.max_emission(low, high) } else { plan.transfer.max_extinction(low, high) };
     let thinnest = (facts.highest - facts.lowest).min_element();
-    if plan.model.color_is_per_length() && plan.model.needs_extinction() || per_length * thinnest >= 1.0 / 255.0 {
+    if adds_light && plan.model.needs_extinction() || per_length * thinnest >= GRAY_LEVEL {
         return None;
     }
     Some(format!(

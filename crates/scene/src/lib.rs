@@ -51,10 +51,12 @@ mod parse;
 mod plan;
 mod rendered;
 mod scene;
+mod shown;
 mod text;
+mod work;
 
 pub use backend::{Backend, GpuOptions, GpuPath, TargetBits, UnknownBackend, UnknownGpuPath};
-pub use blank::explain_blank;
+pub use blank::{explain_blank, foresee_blank};
 pub use check::{PlanError, check_scalars};
 #[cfg(feature = "file")]
 pub use complete::{Completed, MAX_ERROR};
@@ -76,7 +78,9 @@ pub use plan::{
 };
 pub use rendered::{BufferRole, Counts, DeviceBuffer, DeviceReport, OrderReport, Rendered, Stopwatch};
 pub use scene::Scene;
+pub use shown::{Shown, surfaces_near};
 pub use text::short;
+pub use work::{Bytes, Fragments, MapWork, TableWork, Work, WorkBuffer};
 
 #[cfg(all(test, feature = "file"))]
 mod defaults_tests;

@@ -204,10 +204,10 @@ impl Plan {
         Some(self.tables.unwrap_or(usual))
     }
 
-    /// The gradients that its light needs.
+    /// The gradients that its light needs; surfaces of opacity 0 need none.
     pub fn gradients(&self) -> Gradients {
         let Some(lighting) = &self.lighting else { return Gradients::None };
-        let of_surfaces = self.isosurfaces.as_ref().map(|isosurfaces| isosurfaces.surfaces.shading());
+        let of_surfaces = self.isosurfaces.as_ref().map(|isosurfaces| isosurfaces.surfaces.visible().shading());
         match of_surfaces {
             _ if lighting.volume => Gradients::Points,
             Some(SurfaceShading::Smooth) => Gradients::Points,

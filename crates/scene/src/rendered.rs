@@ -105,6 +105,9 @@ pub struct OrderReport {
 }
 
 /// What was done for a picture.
+///
+/// Nothing in it depends on the machine's speed: two pictures of one plan have the same counts. What a back end does not count is `None`, and
+/// never 0; [`Self::counts_fragments`] says it of those that are counted in pixels.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Counts {
     /// Tetrahedra of the mesh.
@@ -127,6 +130,27 @@ pub struct Counts {
     pub sorted: u64,
     /// Most fragments that one tile of the picture held back at one time.
     pub most_held: u64,
+    /// Whether fragments, crossings and what is sorted are counted. Hardware that rasterizes triangles counts nothing of them: they are
+    /// 0 then, and mean nothing.
+    pub counts_fragments: bool,
+    /// Cells that a visibility order sorted: for this picture, or earlier where its order was kept; 0 where nothing depends on the order
+    /// or pixels sort alone. A back end may sort more cells than it draws.
+    pub ordered: u64,
+    /// Entries of the table that the integration looked light up in; 0 without one.
+    pub table_entries: u64,
+    /// Texels of the maps that isosurfaces were looked up in, of all maps together; 0 without one.
+    pub map_entries: u64,
+    /// Points whose gradients were interpolated: all of the mesh, or 0. They are computed once and kept.
+    pub point_gradients: u64,
+    /// Gradients of cells that were set up for light, one a cell, or two where it has a constant and an interpolated one. `None` where
+    /// that is not counted: pixels then compute what they need.
+    pub cell_gradients: Option<u64>,
+    /// Drawn cells that isosurfaces may cut, or whose volume is lit. `None` where that is not counted.
+    pub with_effects: Option<u64>,
+    /// Fragments that light fell on, those in cells that a lit surface may cut included. `None` where that is not counted.
+    pub lit: Option<u64>,
+    /// Drawn cells that were made fans of triangles for the integration that is defined on them; without it 0.
+    pub fans: u64,
 }
 
 /// Measures stages one after another.

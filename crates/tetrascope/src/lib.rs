@@ -58,7 +58,8 @@ pub use tetrascope_integrate::{
     deviation,
 };
 pub use tetrascope_io::{
-    IoError, Loaded, read_exr, read_heights, read_mesh, readers, write_exr, write_heights, write_image, write_png,
+    IoError, Loaded, PictureFile, PngImage, read_exr, read_heights, read_mesh, read_picture, read_png, readers,
+    write_exr, write_heights, write_image, write_png,
 };
 pub use tetrascope_mesh::{
     ArrayValues, CellKind, Cells, ChordLengths, DataArray, Dataset, Decomposition, MeshError, StructuredBlock, TetMesh,
@@ -68,12 +69,12 @@ pub use tetrascope_order::{
     CycleRemedy, Guarantee, MeshVisibility, OrderChoice, OrderMethod, Overlaps, PowerCertificate, Relations, Verdict,
 };
 pub use tetrascope_scene::{
-    ArraySummary, Association, Backend, BufferRole, CameraSection, Choice, Completed, Counts, Decision, DeviceBuffer,
-    DeviceReport, Field, FieldError, FieldOnMesh, GpuOptions, GpuPath, Gradients, Interpolation, IsosurfaceMethod,
-    IsosurfaceMethodName, IsosurfacePlan, IsosurfaceSection, LengthAxisName, LightDirection, LightName, LightSection,
-    Lighting, MeshFacts, Mixing, OrderReport, Plan, PlanError, Progress, ProjectionName, Rendered, Scene, SceneError,
-    SceneFile, SceneSyntaxError, Shading, Silent, Stage, TargetBits, explain_blank, select_field, short,
-    summarize_arrays,
+    ArraySummary, Association, Backend, BufferRole, Bytes, CameraSection, Choice, Completed, Counts, Decision,
+    DeviceBuffer, DeviceReport, Field, FieldError, FieldOnMesh, Fragments, GpuOptions, GpuPath, Gradients,
+    Interpolation, IsosurfaceMethod, IsosurfaceMethodName, IsosurfacePlan, IsosurfaceSection, LengthAxisName,
+    LightDirection, LightName, LightSection, Lighting, MapWork, MeshFacts, Mixing, OrderReport, Plan, PlanError,
+    Progress, ProjectionName, Rendered, Scene, SceneError, SceneFile, SceneSyntaxError, Shading, Silent, Stage,
+    TableWork, TargetBits, Work, WorkBuffer, explain_blank, foresee_blank, select_field, short, summarize_arrays,
 };
 pub use tetrascope_view::{Camera, ErrorFigures, LinearImage, PixelDifference, Projection, View, ViewError};
 

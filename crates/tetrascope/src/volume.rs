@@ -9,8 +9,8 @@ use tetrascope_gpu::GpuError;
 use tetrascope_io::read_mesh;
 use tetrascope_mesh::{Dataset, Decomposition, decompose};
 use tetrascope_scene::{
-    ArraySummary, Backend, Field, FieldOnMesh, MeshFacts, Plan, Progress, Rendered, Stage, place_on_mesh, select_field,
-    summarize_arrays,
+    ArraySummary, Backend, Field, FieldOnMesh, MeshFacts, Plan, Progress, Rendered, Stage, Work, place_on_mesh,
+    select_field, summarize_arrays,
 };
 
 use crate::Error;
@@ -173,6 +173,15 @@ impl VolumeField<'_> {
             None => rendered.timings.insert(0, (Stage::Prepare, prepared)),
         }
         Ok(rendered)
+    }
+
+    /// What a plan asks for on this field, without drawing anything.
+    ///
+    /// # Errors
+    /// [`Error::Render`] for maps of isosurfaces of no possible size.
+    pub fn work(&self, plan: &Plan) -> Result<Work, Error> {
+        let wrong = |error| Error::Render(tetrascope_scene::PlanError::from(error).into());
+        Work::of(plan, self.mesh(), &self.on_mesh.scalars).map_err(wrong)
     }
 
     /// [`Self::renderer`], made on so many threads if it is not made yet.

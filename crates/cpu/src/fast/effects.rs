@@ -1,11 +1,10 @@
 //! What a cell has besides its volume: isosurfaces that may cut it, and light.
 
-use std::ops::Range;
 use std::sync::Arc;
 
 use glam::DVec3;
 use tetrascope_integrate::{Isosurface, Isosurfaces, Phong, SurfaceShading};
-use tetrascope_scene::{Gradients, Plan};
+use tetrascope_scene::{Gradients, Plan, surfaces_near};
 
 use super::cell::Cell;
 use super::gradient::CellGradient;
@@ -23,10 +22,6 @@ pub(crate) struct CellEffects {
     pub(crate) slack: f32,
 }
 
-/// Isosurfaces whose values lie this share of a cell's own range, or this share of the field's, beyond the cell's range count as
-/// inside: rounding may put a scalar at its faces there. Too many cost a little time and nothing else.
-const MARGIN: [f64; 2] = [1e-4, 4e-6];
-
 /// How far below the value of a surface a scalar still counts as on it, as a share of the cell's range and of the field's: above
 /// what a scalar at a face rounds to in f32 (in the steepest cells, see `STEEP` in set-up, 1.5e-5 of the cell's range, rarely more
 /// than a tenth of that), far below what a picture shows.
@@ -34,15 +29,6 @@ const MARGIN: [f64; 2] = [1e-4, 4e-6];
 /// It moves surfaces by this much and changes nothing else. Without it, a surface in the faces of cells, or in the mesh's
 /// boundary, would be there or not as each pixel rounds.
 const ON_SURFACE: [f64; 2] = [1e-5, 2e-6];
-
-/// The surfaces, by their place, that rays may cross in a cell of these scalars, lowest and highest, in the renderer's unit.
-pub(crate) fn surfaces_near(surfaces: &Isosurfaces, low: f64, high: f64) -> Range<usize> {
-    // The field's range is about one in the renderer's unit.
-    let margin = MARGIN[0] * (high - low) + MARGIN[1];
-    let surfaces = surfaces.as_slice();
-    let first = surfaces.partition_point(|surface| surface.value < low - margin);
-    first..first + surfaces[first..].partition_point(|surface| surface.value <= high + margin)
-}
 
 /// Depths are off by at most this share of a cell's own range of depths (a steep plane, see `STEEP` in set-up, has 2e-5 of it), and
 /// by this share of the depth itself, which counts from where the mesh begins (a few roundings).

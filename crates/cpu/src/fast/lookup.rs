@@ -76,6 +76,14 @@ impl Key {
 }
 
 impl Lookup {
+    /// Number of entries of the table.
+    pub(crate) fn entries(&self) -> u64 {
+        match &self.table {
+            Table::Two(table) => table.entries().len() as u64,
+            Table::Three(table) => table.entries().len() as u64,
+        }
+    }
+
     /// Builds the table.
     ///
     /// - `transfer`: that of the key over scalars in the renderer's unit

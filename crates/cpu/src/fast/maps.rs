@@ -78,6 +78,16 @@ impl Maps {
         self.key.surfaces.on_texels(&self.axis)
     }
 
+    /// Number of texels, of all maps together.
+    pub(crate) fn entries(&self) -> u64 {
+        match &self.passes {
+            Passes::Behind(map) => map.entries().len() as u64,
+            Passes::BothBehind(maps) | Passes::Around(maps) => {
+                (maps.front().entries().len() + maps.back().entries().len()) as u64
+            }
+        }
+    }
+
     /// Whether they are what a plan asks for.
     pub(crate) fn is_for(&self, key: &Key) -> bool {
         self.key == *key

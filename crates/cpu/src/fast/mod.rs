@@ -285,7 +285,7 @@ impl CpuRenderer {
             .collect();
         watch.lap(Stage::Bin);
 
-        let [fragments, crossings, sorted, most_held] = [0; 4].map(AtomicU64::new);
+        let [fragments, crossings, sorted, most_held, lit] = [0; 5].map(AtomicU64::new);
         let done = AtomicU64::new(0);
         let job = tile::Job {
             records,
@@ -306,6 +306,7 @@ impl CpuRenderer {
             crossings.fetch_add(drawn.crossings, Ordering::Relaxed);
             sorted.fetch_add(drawn.sorted, Ordering::Relaxed);
             most_held.fetch_max(drawn.most_held, Ordering::Relaxed);
+            lit.fetch_add(drawn.lit, Ordering::Relaxed);
             progress.report(Stage::Rasterize, done.fetch_add(1, Ordering::Relaxed) + 1, grid.len() as u64);
         });
         let mut image = LinearImage::transparent(space.size[0], space.size[1]);
@@ -321,18 +322,27 @@ impl CpuRenderer {
 
         let all = self.tetrahedra.len() as u64;
         let visible = optics.visible().len() as u64;
-        let drawn = records.iter().map(|r| r.cells.len() as u64).sum();
+        let sum = |of: &dyn Fn(&Records) -> usize| records.iter().map(|records| of(records) as u64).sum::<u64>();
         let counts = Counts {
             cells: all,
             transparent: all - visible,
             outside: visible - seen.len() as u64,
-            drawn,
-            careful: records.iter().map(|r| r.careful.len() as u64).sum(),
+            drawn: sum(&|r| r.cells.len()),
+            careful: sum(&|r| r.careful.len()),
             fragments: fragments.into_inner(),
             crossings: crossings.into_inner(),
             cyclic,
             sorted: sorted.into_inner(),
             most_held: most_held.into_inner(),
+            counts_fragments: true,
+            ordered: if plan.order.sorts_cells() { seen.len() as u64 } else { 0 },
+            table_entries: lookup.as_ref().map_or(0, |lookup| lookup.entries()),
+            map_entries: effects.and_then(|effects| effects.maps.as_ref()).map_or(0, |maps| maps.entries()),
+            point_gradients: gradients.len() as u64,
+            cell_gradients: Some(sum(&|r| r.gradients.len() + r.flat_gradients.len())),
+            with_effects: Some(sum(&|r| r.effects.len())),
+            lit: Some(lit.into_inner()),
+            fans: sum(&|r| r.fans.iter().flatten().count()),
         };
         *self.scratch.lock().unwrap_or_else(PoisonError::into_inner) = Some(scratch);
         let guarantee = match plan.order.pixel_sort() {

@@ -3,9 +3,9 @@
 use rayon::prelude::*;
 use tetrascope_integrate::{Isosurfaces, OpticalModel, Piece, TransferFunction};
 use tetrascope_mesh::{CellId, VertexId};
+use tetrascope_scene::Shown;
 
 use super::cell::{CellPieces, LocalPiece};
-use super::effects::surfaces_near;
 use super::record::CellRecord;
 
 /// A transfer function and what it makes of every cell; view independent.
@@ -13,15 +13,13 @@ use super::record::CellRecord;
 pub(crate) struct Optics {
     /// As the plan has it.
     source: TransferFunction,
-    /// Over scalars in the renderer's unit.
-    transfer: TransferFunction,
+    /// What is to be seen in which cells.
+    shown: Shown,
     pub(crate) model: OpticalModel,
     /// The pieces of the transfer function, as lines.
     lines: Vec<Line>,
     /// One entry a cell.
     pieces: Vec<CellPieces>,
-    /// Isosurfaces, over scalars in the renderer's unit.
-    surfaces: Isosurfaces,
     /// The cells that add something to the picture, ascending.
     visible: Vec<CellId>,
 }
@@ -80,7 +78,8 @@ impl Optics {
         tetrahedra: &[[VertexId; 4]],
         scalars: &[f64],
     ) -> Self {
-        let transfer = source.with_scalars_scaled(factor);
+        let shown = Shown::new(source.with_scalars_scaled(factor), model, surfaces.clone());
+        let transfer = shown.transfer();
         let range = |cell: &[VertexId; 4]| {
             let values = cell.map(|v| scalars[v.index()]);
             values.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), &s| (low.min(s), high.max(s)))
@@ -95,10 +94,7 @@ impl Optics {
             .collect();
         let is_visible = |cell: &[VertexId; 4]| {
             let (low, high) = range(cell);
-            // Whatever may round to a surface: a ray that crosses it in a neighbor takes the side at the joint from here.
-            !surfaces_near(surfaces, low, high).is_empty()
-                || (model.needs_extinction() && transfer.max_extinction(low, high) > 0.0)
-                || (!model.is_dark_without_extinction() && transfer.max_emission(low, high) > 0.0)
+            shown.shows(low, high)
         };
         let visible = (0..tetrahedra.len() as u32)
             .into_par_iter()
@@ -106,13 +102,13 @@ impl Optics {
             .map(CellId)
             .collect();
         let lines = transfer.pieces().iter().map(Line::new).collect();
-        Self { source: source.clone(), transfer, model, lines, pieces, surfaces: surfaces.clone(), visible }
+        Self { source: source.clone(), shown, model, lines, pieces, visible }
     }
 
     /// Whether these are the optics of that transfer function, and of surfaces of these values.
     pub(crate) fn is_for(&self, transfer: &TransferFunction, model: OpticalModel, surfaces: &Isosurfaces) -> bool {
         let values = |surfaces: &Isosurfaces| surfaces.as_slice().iter().map(|s| s.value).collect::<Vec<_>>();
-        self.model == model && self.source == *transfer && values(&self.surfaces) == values(surfaces)
+        self.model == model && self.source == *transfer && values(self.shown.surfaces()) == values(surfaces)
     }
 
     pub(crate) fn visible(&self) -> &[CellId] {
@@ -124,7 +120,7 @@ impl Optics {
     }
 
     pub(crate) fn transfer(&self) -> &TransferFunction {
-        &self.transfer
+        self.shown.transfer()
     }
 
     /// The pieces that a cell meets, ascending, as it sees them.

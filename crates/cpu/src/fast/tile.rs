@@ -82,6 +82,8 @@ pub(crate) struct Done {
     pub(crate) sorted: u64,
     /// Most fragments held back at one time.
     pub(crate) most_held: u64,
+    /// Fragments of cells in which something is lit.
+    pub(crate) lit: u64,
 }
 
 impl Pixels {
@@ -310,7 +312,8 @@ impl Brush<'_> {
             return;
         }
         sample.length *= f32x8::from_slice(simd, &block.stretch);
-        done.fragments += u64::from(sample.covered.to_bitmask().count_ones());
+        let covered = u64::from(sample.covered.to_bitmask().count_ones());
+        done.fragments += covered;
         let Some(with_effects) = self.with_effects else {
             let light = I::shade::<S, M>(simd, self.cell, &sample);
             match held {
@@ -322,6 +325,8 @@ impl Brush<'_> {
         let joint = told.as_mut().unwrap_or(&mut pixels.joints[number]);
         let (light, crossings) = with_effects.shade(simd, self.cell, &sample, joint, shade::<S, I, M>);
         done.crossings += crossings;
+        // Once a block, and only where there are effects.
+        done.lit += if with_effects.lamp.is_some() { covered } else { 0 };
         match held {
             Some(held) => held.push(simd, number, &sample, &light),
             None => block.add(simd, before, light, true, true),

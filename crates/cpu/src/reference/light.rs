@@ -25,6 +25,11 @@ impl<'a> Light<'a> {
         Self { lighting, mesh, scalars, gradients }
     }
 
+    /// Points whose gradients are interpolated.
+    pub(super) fn point_gradients(&self) -> u64 {
+        self.gradients.len() as u64
+    }
+
     pub(super) fn lights_volume(&self) -> bool {
         self.lighting.volume
     }

@@ -27,7 +27,7 @@ impl TexelAxis {
     ///
     /// # Errors
     /// [`IsosurfaceError::MapSize`]; [`IsosurfaceError::MapRange`] for a range that descends or has no finite width.
-    fn new([lo, hi]: [f64; 2], texels: u32) -> Result<Self, IsosurfaceError> {
+    pub fn new([lo, hi]: [f64; 2], texels: u32) -> Result<Self, IsosurfaceError> {
         if !(IsosurfaceMap::LEAST..=IsosurfaceMap::MOST).contains(&texels) {
             let (least, most) = (IsosurfaceMap::LEAST, IsosurfaceMap::MOST);
             return Err(IsosurfaceError::MapSize { size: texels, least, most });

@@ -57,14 +57,18 @@ fn encode(image: &LinearImage) -> exr::error::Result<Vec<u8>> {
 /// [`IoError::Read`] when the system does not give the file, [`IoError::Invalid`] when it is no such picture, is broken,
 /// or declares more pixels than a file of its length can hold.
 pub fn read_exr(path: &Path) -> Result<LinearImage, IoError> {
-    let bytes = read_whole(path)?;
+    decode(path, &read_whole(path)?)
+}
+
+/// [`read_exr`] of what is in the file.
+pub(super) fn decode(path: &Path, bytes: &[u8]) -> Result<LinearImage, IoError> {
     let invalid = |problem: String| IoError::Invalid {
         path: path.to_owned(),
         place: "OpenEXR picture".to_owned(),
         problem,
         remedy: "write it again as flat RGB or RGBA OpenEXR".to_owned(),
     };
-    refuse_oversized(&bytes).map_err(invalid)?;
+    refuse_oversized(bytes).map_err(invalid)?;
 
     let read = read()
         .no_deep_data()
@@ -79,7 +83,7 @@ pub fn read_exr(path: &Path) -> Result<LinearImage, IoError> {
         )
         .first_valid_layer()
         .all_attributes()
-        .from_buffered(io::Cursor::new(&bytes))
+        .from_buffered(io::Cursor::new(bytes))
         .map_err(|error| invalid(error.to_string()))?;
 
     let size = read.layer_data.size;

@@ -2,6 +2,7 @@
 
 mod exr_file;
 mod png_file;
+mod read;
 mod whole_file;
 
 use std::path::Path;
@@ -9,7 +10,8 @@ use std::path::Path;
 use tetrascope_view::LinearImage;
 
 pub use exr_file::{read_exr, write_exr};
-pub use png_file::write_png;
+pub use png_file::{PngImage, read_png, write_png};
+pub use read::{PictureFile, read_picture};
 pub(crate) use whole_file::write_whole;
 
 use crate::{IoError, read::extension};

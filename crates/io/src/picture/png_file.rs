@@ -1,11 +1,36 @@
-//! 8-bit PNG pictures over a background.
+//! PNG pictures: 8-bit ones over a background are written, all kinds are read.
 
-use std::path::Path;
+use std::{io, path::Path};
 
 use tetrascope_view::LinearImage;
 
 use super::{refuse_empty, whole_file::write_whole};
-use crate::IoError;
+use crate::{IoError, open::read_whole};
+
+/// How many pixels a byte of a file may stand for. Deflate reaches 1032 bytes a byte, which is so many pixels of one 8-bit channel; what
+/// more a picture of single bits could hold is no picture.
+const PIXELS_PER_BYTE: u64 = 1024;
+
+/// Pictures up to this size are read whatever the file's length is: 4 megapixels are 32 MiB.
+const PIXELS_ALWAYS_READ: u64 = 1 << 22;
+
+/// Larger ones are not read at all: they take 2 GiB.
+const MOST_PIXELS: u64 = 1 << 28;
+
+/// Memory that the decoder may take for itself: lines, palettes, profiles and texts.
+const DECODER_BYTES: usize = 64 << 20;
+
+/// A picture as a PNG file has it: encoded samples, with straight alpha.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct PngImage {
+    /// Pixels a row.
+    pub width: u32,
+    /// Number of rows.
+    pub height: u32,
+    /// Red, green, blue and alpha, 0 to 65535, row after row from the top. Samples of 8 bits are here times 257, so that either kind
+    /// has its largest value at 65535.
+    pub pixels: Vec<[u16; 4]>,
+}
 
 /// Writes a picture as 8-bit sRGB PNG without alpha, with an sRGB chunk.
 ///
@@ -31,4 +56,70 @@ fn encode(image: &LinearImage, background: [f32; 3]) -> Result<Vec<u8>, png::Enc
     writer.write_image_data(&image.to_srgb8(background))?;
     writer.finish()?;
     Ok(bytes)
+}
+
+/// Reads a PNG picture of any kind: gray, RGB or palette, with or without alpha, of 1 to 16 bits, interlaced or not. Of an animation it
+/// is the picture that programs without animations show.
+///
+/// A gray sample stands for red, green and blue; where nothing is transparent alpha is 65535. Profiles and gamma are not looked at.
+///
+/// # Errors
+/// [`IoError::Read`] when the system does not give the file, [`IoError::Invalid`] when it is no such picture, is broken, declares more
+/// pixels than a file of its length can hold (1024 a byte, and 2²² whatever the length is), or more than 2²⁸.
+pub fn read_png(path: &Path) -> Result<PngImage, IoError> {
+    decode(path, &read_whole(path)?)
+}
+
+/// [`read_png`] of what is in the file.
+pub(super) fn decode(path: &Path, bytes: &[u8]) -> Result<PngImage, IoError> {
+    decode_samples(bytes).map_err(|problem| IoError::Invalid {
+        path: path.to_owned(),
+        place: "PNG picture".to_owned(),
+        problem,
+        remedy: "write it again as PNG".to_owned(),
+    })
+}
+
+fn decode_samples(bytes: &[u8]) -> Result<PngImage, String> {
+    let limits = png::Limits { bytes: DECODER_BYTES };
+    let mut decoder = png::Decoder::new_with_limits(io::Cursor::new(bytes), limits);
+    // Palettes and single bits to 8 bits, a transparent color to alpha.
+    decoder.set_transformations(png::Transformations::EXPAND);
+    let mut reader = decoder.read_info().map_err(|error| error.to_string())?;
+    let (width, height) = reader.info().size();
+    let limit = (bytes.len() as u64).saturating_mul(PIXELS_PER_BYTE).clamp(PIXELS_ALWAYS_READ, MOST_PIXELS);
+    if u64::from(width) * u64::from(height) > limit {
+        return Err(format!("{width} x {height} pixels are declared, a file of this length holds {limit} at most"));
+    }
+    let size = reader.output_buffer_size().ok_or_else(|| format!("its size of {width} x {height} does not fit"))?;
+    let mut samples = vec![0; size];
+    let frame = reader.next_frame(&mut samples).map_err(|error| error.to_string())?;
+    if (frame.width, frame.height) != (width, height) {
+        return Err(format!("its picture has {} x {} pixels, not {width} x {height}", frame.width, frame.height));
+    }
+    samples.truncate(frame.buffer_size());
+    let pixels = match frame.bit_depth {
+        png::BitDepth::Sixteen => {
+            let pairs = samples.chunks_exact(2).map(|pair| u16::from_be_bytes([pair[0], pair[1]]));
+            to_rgba(&pairs.collect::<Vec<_>>(), frame.color_type)
+        }
+        _ => to_rgba(&samples.iter().map(|&sample| u16::from(sample) * 257).collect::<Vec<_>>(), frame.color_type),
+    };
+    if pixels.len() as u64 != u64::from(width) * u64::from(height) {
+        return Err(format!("{} pixels were found in a picture of {width} x {height}", pixels.len()));
+    }
+    Ok(PngImage { width, height, pixels })
+}
+
+fn to_rgba(samples: &[u16], color_type: png::ColorType) -> Vec<[u16; 4]> {
+    samples
+        .chunks_exact(color_type.samples())
+        .map(|pixel| match *pixel {
+            [gray] => [gray, gray, gray, u16::MAX],
+            [gray, alpha] => [gray, gray, gray, alpha],
+            [r, g, b] => [r, g, b, u16::MAX],
+            [r, g, b, alpha, ..] => [r, g, b, alpha],
+            [] => [0; 4],
+        })
+        .collect()
 }

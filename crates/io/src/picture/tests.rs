@@ -197,3 +197,114 @@ proptest::proptest! {
         let _ = read_exr(&path);
     }
 }
+
+/// A PNG of that kind, with what else it needs.
+fn encode_png(
+    size: [u32; 2],
+    color: png::ColorType,
+    depth: png::BitDepth,
+    palette: Option<[&[u8]; 2]>,
+    data: &[u8],
+) -> Vec<u8> {
+    let mut bytes = Vec::new();
+    let mut encoder = png::Encoder::new(&mut bytes, size[0], size[1]);
+    encoder.set_color(color);
+    encoder.set_depth(depth);
+    if let Some([colors, alphas]) = palette {
+        encoder.set_palette(colors.to_vec());
+        encoder.set_trns(alphas.to_vec());
+    }
+    encoder.write_header().unwrap().write_image_data(data).unwrap();
+    bytes
+}
+
+#[test]
+fn png_of_every_kind_is_read() {
+    use png::{BitDepth as Bits, ColorType as Color};
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("named.exr");
+    let check = |bytes: Vec<u8>, expected: &[[u16; 4]]| {
+        fs::write(&path, bytes).unwrap();
+        let found = read_png(&path).unwrap();
+        assert_eq!((found.width, found.height, found.pixels.as_slice()), (2, 1, expected));
+        // By its content, whatever it is called.
+        assert_eq!(read_picture(&path).unwrap(), PictureFile::Png(found));
+    };
+    let (one, full) = (257, 65535);
+    check(encode_png([2, 1], Color::Grayscale, Bits::Eight, None, &[0, 1]), &[[0, 0, 0, full], [one, one, one, full]]);
+    check(encode_png([2, 1], Color::Grayscale, Bits::One, None, &[0b0100_0000]), &[[0, 0, 0, full], [full; 4]]);
+    check(
+        encode_png([2, 1], Color::Rgb, Bits::Eight, None, &[1, 2, 3, 4, 5, 255]),
+        &[[one, 2 * one, 3 * one, full], [4 * one, 5 * one, full, full]],
+    );
+    check(
+        encode_png([2, 1], Color::GrayscaleAlpha, Bits::Eight, None, &[1, 2, 3, 4]),
+        &[[one, one, one, 2 * one], [3 * one, 3 * one, 3 * one, 4 * one]],
+    );
+    check(
+        encode_png([2, 1], Color::Rgba, Bits::Sixteen, None, &[1, 2, 3, 4, 5, 6, 7, 8, 0, 0, 0, 1, 0, 2, 255, 255]),
+        &[[0x0102, 0x0304, 0x0506, 0x0708], [0, 1, 2, full]],
+    );
+    let palette = Some([&[9, 8, 7, 1, 2, 3][..], &[255, 16][..]]);
+    check(
+        encode_png([2, 1], Color::Indexed, Bits::Eight, palette, &[1, 0]),
+        &[[one, 2 * one, 3 * one, 16 * one], [9 * one, 8 * one, 7 * one, full]],
+    );
+}
+
+#[test]
+fn png_comes_back_as_it_was_written() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("picture.png");
+    let image = gradient(33, 9);
+    write_png(&path, &image, [0.5; 3]).unwrap();
+    let bytes = image.to_srgb8([0.5; 3]);
+    let found = read_png(&path).unwrap();
+    let back: Vec<u8> = found.pixels.iter().flat_map(|pixel| [0, 1, 2].map(|c| (pixel[c] / 257) as u8)).collect();
+    assert_eq!((found.width, found.height, back), (33, 9, bytes));
+}
+
+#[test]
+fn png_broken_files_are_errors() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("picture.png");
+    write_png(&path, &gradient(64, 64), [0.0; 3]).unwrap();
+    let whole = fs::read(&path).unwrap();
+    for length in [1, 8, 20, 40, whole.len() / 2] {
+        fs::write(&path, &whole[..length]).unwrap();
+        let message = read_png(&path).unwrap_err().to_string();
+        assert!(message.contains("picture.png"), "{message}");
+    }
+    // Every byte changed, one after the other: an error or a picture of its size, but no end of the program.
+    for at in (0..whole.len()).step_by(3) {
+        let mut changed = whole.clone();
+        changed[at] ^= 0x41;
+        fs::write(&path, &changed).unwrap();
+        if let Ok(found) = read_png(&path) {
+            assert_eq!(found.pixels.len(), (found.width * found.height) as usize);
+        }
+    }
+    // Declares far more than its few bytes can hold.
+    let mut oversized = whole;
+    let sides = (1_u32 << 16).to_be_bytes();
+    // Width and height follow the signature and the name of the chunk, whose check sum covers them.
+    oversized[16..20].copy_from_slice(&sides);
+    oversized[20..24].copy_from_slice(&sides);
+    let mut sum = flate2::Crc::new();
+    sum.update(&oversized[12..29]);
+    oversized[29..33].copy_from_slice(&sum.sum().to_be_bytes());
+    fs::write(&path, &oversized).unwrap();
+    let message = read_png(&path).unwrap_err().to_string();
+    assert!(message.contains("65536 x 65536 pixels are declared"), "{message}");
+}
+
+#[test]
+fn pictures_of_other_kinds_are_refused() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("picture.png");
+    fs::write(&path, "P6 2 2 255").unwrap();
+    assert!(matches!(read_picture(&path), Err(IoError::Unsupported { .. })));
+    write_exr(&folder.path().join("picture.exr"), &gradient(4, 4)).unwrap();
+    fs::rename(folder.path().join("picture.exr"), &path).unwrap();
+    assert_eq!(read_picture(&path).unwrap(), PictureFile::Exr(gradient(4, 4)));
+}

@@ -1,0 +1,67 @@
+//! `tetrascope plan`: what would be done for a picture, what is left out, and what it takes; nothing is drawn.
+
+mod rows;
+
+use serde_json::{Value, json};
+use tetrascope::{Volume, foresee_blank, resolve_path};
+
+use crate::Failure;
+use crate::args::PlanArgs;
+use crate::progress::Bar;
+use crate::render::{scene_of, wrong_scene};
+use crate::report::{line, object, warning};
+use rows::{Row, Said};
+
+pub(crate) fn run(args: &PlanArgs) -> Result<(), Failure> {
+    let bar = Bar::new(false);
+    let done = plan(args, &bar);
+    bar.clear();
+    let said = done?;
+    said.warnings.iter().for_each(|text| warning(text));
+    if args.json {
+        object(&said.json);
+    } else {
+        let width = said.rows.iter().map(|row| row.subject.len()).max().unwrap_or(0) + 2;
+        for Row { subject, text } in &said.rows {
+            line(&format!("{subject:<width$}{text}"));
+        }
+    }
+    Ok(())
+}
+
+fn plan(args: &PlanArgs, bar: &Bar) -> Result<Said, Failure> {
+    let (scene, base_dir) = scene_of(&args.scene)?;
+    let threads = args.scene.threads.map(usize::from);
+    bar.step("reading and cutting into tetrahedra");
+    let solution = scene.mesh.solution.as_ref().map(|path| resolve_path(&base_dir, path));
+    let volume = Volume::load(&resolve_path(&base_dir, &scene.mesh.path), solution.as_deref())?;
+    let field = volume.field(scene.mesh.field.as_deref())?;
+    bar.step("choosing methods");
+    let wrong = |error: tetrascope::Error| wrong_scene(args.scene.file(), error);
+    let mut completed = scene.complete(&field.facts).map_err(|error| wrong(error.into()))?;
+    completed.scene.threads = threads;
+    let plan = field.plan(&mut completed).map_err(wrong)?;
+    let work = field.work(&plan)?;
+
+    let mut blank = foresee_blank(&plan, &field.facts);
+    if blank.is_empty() && work.drawn_at_most() == 0 {
+        blank.push(format!(
+            "of {} tetrahedra {} show nothing by the transfer function and the isosurfaces, and the others are out of view",
+            work.cells, work.transparent
+        ));
+    }
+    let mut said = rows::say(&volume, &field, &plan, &work, threads);
+    said.warnings.extend(volume.warnings.iter().cloned());
+    said.warnings.extend(volume.decomposition.counts.findings());
+    said.warnings.extend(field.field.warnings.iter().cloned());
+    said.warnings.extend(field.on_mesh.warning());
+    said.warnings.extend(completed.warnings);
+    if !blank.is_empty() {
+        said.warnings.push(format!("the picture will be blank: {}", blank.join("; ")));
+    }
+    if let Value::Object(all) = &mut said.json {
+        all.insert("blank".to_owned(), json!(blank));
+        all.insert("warnings".to_owned(), json!(said.warnings));
+    }
+    Ok(said)
+}
