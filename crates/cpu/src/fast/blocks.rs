@@ -5,7 +5,8 @@ use fearless_simd::Simd;
 use super::careful::careful_sample;
 use super::cell::CarefulCell;
 use super::cover::{BlockRange, CoverList};
-use super::record::{CellRecord, Records};
+use super::interpolation::Interpolated;
+use super::record::{CellRecord, Listed};
 use super::sample::{BLOCK_HEIGHT, BLOCK_WIDTH, Sample};
 use crate::geometry::PixelSpace;
 
@@ -15,6 +16,7 @@ pub(crate) struct Blocks<'a> {
     record: &'a CellRecord,
     /// A cell to be drawn in f64.
     careful: Option<&'a CarefulCell>,
+    interpolated: Option<Interpolated<'a>>,
     range: BlockRange,
     space: &'a PixelSpace,
     count: usize,
@@ -25,12 +27,12 @@ impl<'a> Blocks<'a> {
     #[inline(always)]
     pub(crate) fn find<S: Simd>(
         simd: S,
-        records: &'a Records,
-        record: &'a CellRecord,
+        listed: Listed<'a>,
         range: BlockRange,
         space: &'a PixelSpace,
         covers: &mut CoverList,
     ) -> Self {
+        let Listed { records, record, interpolated } = listed;
         let careful = (record.entry_count == 0).then(|| &records.careful[record.careful as usize]);
         let count = if careful.is_some() {
             (range.rows * range.columns) as usize
@@ -38,7 +40,7 @@ impl<'a> Blocks<'a> {
             covers.find(simd, record, range);
             covers.len()
         };
-        Self { record, careful, range, space, count }
+        Self { record, careful, interpolated, range, space, count }
     }
 
     /// How many there are to be visited.
@@ -52,7 +54,13 @@ impl<'a> Blocks<'a> {
     pub(crate) fn get<S: Simd>(&self, simd: S, covers: &CoverList, index: usize) -> Option<(usize, Sample<S>)> {
         match self.careful {
             Some(careful) => sample_carefully(simd, careful, self.record, self.space, self.range, index as u32),
-            None => Some(covers.get(simd, index, self.record, self.space)),
+            None => {
+                let (block, sample) = covers.get(simd, index, self.record, self.space);
+                match self.interpolated {
+                    None => Some((block, sample)),
+                    Some(interpolated) => Some((block, interpolated.apply(simd, self.record, sample))),
+                }
+            }
         }
     }
 }

@@ -20,6 +20,7 @@ mod effects;
 mod fan;
 mod gradient;
 mod held;
+mod interpolation;
 mod lookup;
 mod maps;
 mod methods;
@@ -260,6 +261,7 @@ impl CpuRenderer {
             outlines,
             optics: &optics,
             with_fans,
+            interpolation: plan.interpolation,
             effects,
             gradients,
             pieces: &order.pieces,

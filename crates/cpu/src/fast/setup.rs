@@ -6,11 +6,13 @@ use glam::{DVec2, DVec3};
 use tetrascope_classify::{DepthPlane, cut_at_depth};
 use tetrascope_mesh::{CellId, VertexId};
 use tetrascope_order::{CutPlane, Piece};
+use tetrascope_scene::Interpolation;
 
 use super::CpuRenderer;
 use super::cell::{CarefulCell, Cell, Outline};
 use super::effects::Effects;
 use super::fan::FanSetUp;
+use super::interpolation::{PerspectiveFan, ScreenFan};
 use super::optics::Optics;
 use super::record::{CellRecord, NO_EFFECTS, Records};
 use crate::geometry::{ClipCell, PixelSpace, Points};
@@ -35,6 +37,8 @@ pub(crate) struct SetUp<'a> {
     pub(crate) optics: &'a Optics,
     /// Whether the integration is defined on fans of triangles.
     pub(crate) with_fans: bool,
+    /// How segments are found at a pixel.
+    pub(crate) interpolation: Interpolation,
     /// Isosurfaces and light, if there are any.
     pub(crate) effects: Option<&'a Effects>,
     /// The gradient at every point, along the mesh's axes, where they are interpolated.
@@ -56,6 +60,8 @@ impl SetUp<'_> {
         records.cells.clear();
         records.careful.clear();
         records.fans.clear();
+        records.perspective.clear();
+        records.screen.clear();
         records.effects.clear();
         records.rings.clear();
         records.gradients.clear();
@@ -94,6 +100,9 @@ impl SetUp<'_> {
                     self.add_with_fan(cell, records);
                 } else {
                     self.add(cell, records);
+                }
+                if self.interpolation != Interpolation::Exact {
+                    self.add_interpolated(cell, before, records);
                 }
                 if let Some(effects) = self.effects {
                     self.add_effects(effects, cell, vertices, before, records);
@@ -143,6 +152,22 @@ impl SetUp<'_> {
         let at_points = || vertices.map(|v| self.gradients[v.index()]);
         records.gradients.extend(effects.gradient(cell, at_points, self.space));
         records.flat_gradients.extend(effects.flat_gradient(cell, self.space));
+    }
+
+    /// Adds what the records that a cell has become, from `first` on, need where segments are not as their planes have them.
+    ///
+    /// Pieces of cells, and cells that are drawn in f64, have no fan and keep the exact way; those that reach the plane of the eye are
+    /// among the latter.
+    fn add_interpolated(&self, cell: &Cell, first: usize, records: &mut Records) {
+        let Records { cells, perspective, screen, .. } = records;
+        let cells = &cells[first..];
+        match self.interpolation {
+            Interpolation::Exact => {}
+            Interpolation::Perspective => {
+                perspective.extend(cells.iter().map(|record| PerspectiveFan::new(cell, record, self.space)));
+            }
+            Interpolation::Screen => screen.extend(cells.iter().map(|record| ScreenFan::new(cell, record, self.space))),
+        }
     }
 
     /// Adds a cell's record and its fan; a cell that reaches the plane of the eye is cut there into cells that do not.
