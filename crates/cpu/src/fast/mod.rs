@@ -431,6 +431,8 @@ fn remember<T>(kept: &Mutex<Vec<Arc<T>>>, new: T) -> Arc<T> {
 }
 
 #[cfg(test)]
+mod interpolation_tests;
+#[cfg(test)]
 mod pieces_tests;
 #[cfg(test)]
 mod sorting_tests;
