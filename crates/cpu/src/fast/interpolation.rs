@@ -15,9 +15,10 @@
 use fearless_simd::{Simd, f32x8, prelude::*};
 use glam::{DVec2, DVec3};
 use tetrascope_classify::{FanVertex, Projected, ThickVertex, Viewpoint, project};
+use tetrascope_scene::Interpolation;
 
 use super::cell::Cell;
-use super::record::CellRecord;
+use super::record::{CellRecord, Records};
 use super::sample::Sample;
 use crate::geometry::PixelSpace;
 
@@ -173,6 +174,29 @@ impl ScreenFan {
         (sample.front, sample.back) = (front.max(low).min(high), back.max(low).min(high));
         sample.length = sample.nearness * self.length;
         sample
+    }
+}
+
+impl Records {
+    /// Adds the fans of the records that a cell has become, from `first` on, where segments are not as the planes have them.
+    ///
+    /// Pieces of cells, and cells that are drawn in f64, have none and keep the exact way; those that reach the plane of the eye are
+    /// among the latter.
+    pub(crate) fn add_fans_of_segments(
+        &mut self,
+        interpolation: Interpolation,
+        cell: &Cell,
+        first: usize,
+        space: &PixelSpace,
+    ) {
+        let cells = &self.cells[first..];
+        match interpolation {
+            Interpolation::Exact => {}
+            Interpolation::Perspective => {
+                self.perspective.extend(cells.iter().map(|record| PerspectiveFan::new(cell, record, space)));
+            }
+            Interpolation::Screen => self.screen.extend(cells.iter().map(|record| ScreenFan::new(cell, record, space))),
+        }
     }
 }
 

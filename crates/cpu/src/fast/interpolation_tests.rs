@@ -186,11 +186,11 @@ fn random(seed: u64) -> impl FnMut() -> f64 {
 fn errors(interpolation: Interpolation, distance: f64) -> [Vec<f64>; 3] {
     let mut random = random(7);
     let mut errors = [const { Vec::new() }; 3];
-    for _ in 0..150 {
+    for _ in 0..800 {
         let mut point = || DVec3::new(random(), random(), random());
         let (corners, eye) = ([point(), point(), point(), point()], point());
         let cell = Tetrahedron { corners, scalars: [0.0, 1.0, 0.3, 0.7] };
-        if cell.volume().abs() < 0.03 {
+        if cell.volume().abs() < 0.01 {
             continue;
         }
         let view = towards_origin(eye.normalize() * distance);

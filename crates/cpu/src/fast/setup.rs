@@ -12,7 +12,6 @@ use super::CpuRenderer;
 use super::cell::{CarefulCell, Cell, Outline};
 use super::effects::Effects;
 use super::fan::FanSetUp;
-use super::interpolation::{PerspectiveFan, ScreenFan};
 use super::optics::Optics;
 use super::record::{CellRecord, NO_EFFECTS, Records};
 use crate::geometry::{ClipCell, PixelSpace, Points};
@@ -102,7 +101,7 @@ impl SetUp<'_> {
                     self.add(cell, records);
                 }
                 if self.interpolation != Interpolation::Exact {
-                    self.add_interpolated(cell, before, records);
+                    records.add_fans_of_segments(self.interpolation, cell, before, self.space);
                 }
                 if let Some(effects) = self.effects {
                     self.add_effects(effects, cell, vertices, before, records);
@@ -152,22 +151,6 @@ impl SetUp<'_> {
         let at_points = || vertices.map(|v| self.gradients[v.index()]);
         records.gradients.extend(effects.gradient(cell, at_points, self.space));
         records.flat_gradients.extend(effects.flat_gradient(cell, self.space));
-    }
-
-    /// Adds what the records that a cell has become, from `first` on, need where segments are not as their planes have them.
-    ///
-    /// Pieces of cells, and cells that are drawn in f64, have no fan and keep the exact way; those that reach the plane of the eye are
-    /// among the latter.
-    fn add_interpolated(&self, cell: &Cell, first: usize, records: &mut Records) {
-        let Records { cells, perspective, screen, .. } = records;
-        let cells = &cells[first..];
-        match self.interpolation {
-            Interpolation::Exact => {}
-            Interpolation::Perspective => {
-                perspective.extend(cells.iter().map(|record| PerspectiveFan::new(cell, record, self.space)));
-            }
-            Interpolation::Screen => screen.extend(cells.iter().map(|record| ScreenFan::new(cell, record, self.space))),
-        }
     }
 
     /// Adds a cell's record and its fan; a cell that reaches the plane of the eye is cut there into cells that do not.
