@@ -201,16 +201,13 @@ impl Records {
 }
 
 impl Interpolated<'_> {
-    /// A sample of the planes, interpolated. Out of line, and by value: nothing of it is there for those who do not ask.
-    #[inline(never)]
+    /// A sample of the planes, interpolated.
+    #[inline(always)]
     pub(crate) fn apply<S: Simd>(self, simd: S, record: &CellRecord, sample: Sample<S>) -> Sample<S> {
-        simd.vectorize(
-            #[inline(always)]
-            || match self {
-                Self::Perspective(fan) => fan.apply(simd, record, sample),
-                Self::Screen(fan) => fan.apply(simd, record, sample),
-            },
-        )
+        match self {
+            Self::Perspective(fan) => fan.apply(simd, record, sample),
+            Self::Screen(fan) => fan.apply(simd, record, sample),
+        }
     }
 }
 
