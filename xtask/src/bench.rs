@@ -4,7 +4,8 @@
 //! in turn at every step, so that a machine whose speed drifts slows all of them alike; medians are over the turn. Nothing ends
 //! early and nothing is left out: every cell is at least a little opaque in the smooth transfer function.
 //!
-//! The settings are all ways to integrate, or with `--isosurfaces` all ways to draw isosurfaces, beside none. With `--orders` visibility
+//! The settings are all ways to integrate, with `--interpolations` all ways to find a segment at a pixel, or with `--isosurfaces` all ways to
+//! draw isosurfaces, beside none. With `--orders` visibility
 //! orders are measured alone, without a picture; with `--backend gpu` a graphics card, stage by stage.
 
 mod gpu;
@@ -18,8 +19,8 @@ use glam::DVec3;
 use tetrascope::integrate::{Isosurface, Isosurfaces, Phong, SurfaceShading};
 use tetrascope::scene::{IsosurfaceMethod, IsosurfacePlan, Lighting, Mixing, defaults};
 use tetrascope::{
-    Backend, Camera, Counts, CpuRenderer, Integration, OpticalModel, OrderMethod, Plan, Projection, Silent, Stage,
-    TransferFunction, View, Volume, VolumeField,
+    Backend, Camera, Counts, CpuRenderer, Integration, Interpolation, OpticalModel, OrderMethod, Plan, Projection,
+    Silent, Stage, TransferFunction, View, Volume, VolumeField,
 };
 
 use crate::Failure;
@@ -50,11 +51,14 @@ pub(crate) struct Args {
     /// Isosurfaces in place of ways to integrate: 1, 10, 100 and 1000 of them, by every method.
     #[arg(long)]
     isosurfaces: bool,
-    /// Visibility orders alone; without a mesh on built-in ones of 10⁴ to 5·10⁶ tetrahedra.
+    /// Ways to find a segment at a pixel in place of ways to integrate, which is exact.
     #[arg(long, conflicts_with = "isosurfaces")]
+    interpolations: bool,
+    /// Visibility orders alone; without a mesh on built-in ones of 10⁴ to 5·10⁶ tetrahedra.
+    #[arg(long, conflicts_with_all = ["isosurfaces", "interpolations"])]
     orders: bool,
     /// Who draws: cpu or gpu. With gpu without a mesh on built-in ones of 1, 4 and 16 million tetrahedra.
-    #[arg(long, default_value = "cpu", conflicts_with_all = ["isosurfaces", "orders"])]
+    #[arg(long, default_value = "cpu", conflicts_with_all = ["isosurfaces", "interpolations", "orders"])]
     backend: Backend,
     /// The adapter of --backend gpu: a part of its name, or its number in `tetrascope devices`.
     #[arg(long)]
@@ -127,7 +131,11 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
         Camera { eye: center + away, target: center, up: DVec3::Z, projection: Projection::Perspective { fov_y } }
     };
     let view = View::new(&camera(0.0), args.size, args.size)?;
-    let mut settings = if args.isosurfaces { surfaces(&field, view)? } else { integrations(&field, view)? };
+    let mut settings = match (args.isosurfaces, args.interpolations) {
+        (true, _) => surfaces(&field, view)?,
+        (_, true) => interpolations(&field, view)?,
+        _ => integrations(&field, view)?,
+    };
     settings.retain(|setting| setting.name.contains(&args.only));
     if settings.is_empty() {
         return Err(format!("no setting's name contains \"{}\"", args.only).into());
@@ -163,6 +171,18 @@ fn integrations(field: &VolumeField<'_>, view: View) -> Result<Vec<Setting>, Fai
         for integration in Integration::ALL {
             let plan = Plan { integration, ..Plan::new(view, transfer.clone(), OpticalModel::DensityEmitter) };
             settings.push(Setting::new(format!("{integration}, {name}"), plan));
+        }
+    }
+    Ok(settings)
+}
+
+/// Every way to find a segment at a pixel, with the exact integration and the same two transfer functions.
+fn interpolations(field: &VolumeField<'_>, view: View) -> Result<Vec<Setting>, Failure> {
+    let mut settings = Vec::new();
+    for (name, transfer) in [("6 points", smooth(field)?), ("default", default(field)?)] {
+        for interpolation in Interpolation::ALL {
+            let plan = Plan { interpolation, ..Plan::new(view, transfer.clone(), OpticalModel::DensityEmitter) };
+            settings.push(Setting::new(format!("{interpolation}, {name}"), plan));
         }
     }
     Ok(settings)

@@ -4,8 +4,8 @@ use std::path::PathBuf;
 
 use clap::{Args, Parser, Subcommand};
 use tetrascope::{
-    Backend, Choice, CycleRemedy, GpuPath, Integration, IsosurfaceSection, LengthAxisName, OpticalModel, OrderMethod,
-    Shading, TableSettings, TargetBits,
+    Backend, Choice, CycleRemedy, GpuPath, Integration, Interpolation, IsosurfaceSection, LengthAxisName, OpticalModel,
+    OrderMethod, Shading, TableSettings, TargetBits,
 };
 
 /// Draws unstructured meshes as volumes.
@@ -197,6 +197,9 @@ pub(crate) struct SceneArgs {
     /// opacity-2d, average, vertex
     #[arg(long, value_name = "NAME", help_heading = "Method")]
     pub(crate) integration: Option<Choice<Integration>>,
+    /// auto, or how a ray's ends in a cell and the length between are found at a pixel in perspective: exact, perspective, screen
+    #[arg(long, value_name = "NAME", help_heading = "Method")]
+    pub(crate) interpolation: Option<Choice<Interpolation>>,
     /// Samples along each axis of the table of table-3d or table-2d [default: 64 or 256]
     #[arg(long, value_name = "N", value_parser = table_size(), help_heading = "Method")]
     pub(crate) table_size: Option<u32>,

@@ -214,6 +214,7 @@ fn override_by_options(scene: &mut SceneFile, args: &SceneArgs) {
         (quality.table_size, quality.table_lengths, quality.length_axis) = (None, None, None);
     }
     set(&mut quality.integration, args.integration.as_ref());
+    set(&mut quality.interpolation, args.interpolation.as_ref());
     if args.table_size.is_some() {
         // One size for all axes, whatever the scene file has for the lengths.
         (quality.table_size, quality.table_lengths) = (args.table_size, None);

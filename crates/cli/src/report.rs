@@ -109,6 +109,7 @@ impl Report {
             .collect();
         self.put("decisions", json!(decisions));
         self.put("integration", json!(plan.integration.to_string()));
+        self.put("interpolation", json!(plan.interpolation.to_string()));
         self.put("tables", tables_of(plan));
         self.put("isosurfaces", isosurfaces_of(plan));
         let gradients = match plan.gradients() {

@@ -46,6 +46,10 @@
 //! within a window, and [`CycleRemedy::PerPixel`](tetrascope_order::CycleRemedy::PerPixel) only where cells lie in rings. Their cost is a
 //! list of the fragments of each tile; without an order a tile cannot end early where it is opaque.
 //!
+//! Segments are exact unless the plan asks for an [`Interpolation`](tetrascope_scene::Interpolation) of the literature, over the triangles of each cell's fan: then
+//! the fast renderer makes fans too, and only then. Coverage stays that of the planes, so that a ray still belongs to one cell. Cells
+//! without a fan in 32 bits are drawn exactly in every way: pieces of cut cells, cells that reach the plane of the eye or are seen nearly edge-on.
+//!
 //! Limits: the reference keeps all fragments of a tile in memory and has no fan for
 //! [`Integration::Vertex`](tetrascope_integrate::Integration::Vertex).
 

@@ -31,8 +31,8 @@ const TILE_SIDE: u32 = 16;
 ///
 /// - `scalars`: one a point of the mesh
 ///
-/// The plan's order, back end and termination are ignored, and so is the method of its isosurfaces: the reference cuts
-/// rays where they meet a surface, which is what maps approximate.
+/// The plan's order, back end, interpolation and termination are ignored, and so is the method of its isosurfaces: the reference has
+/// segments exactly, and cuts rays where they meet a surface, which is what interpolation and maps approximate.
 ///
 /// # Errors
 /// [`RenderError`] if `scalars` does not fit the mesh, holds a value that is not finite where a tetrahedron uses it, or if

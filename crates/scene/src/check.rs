@@ -4,7 +4,7 @@ use tetrascope_integrate::Integration;
 use tetrascope_mesh::TetMesh;
 use tetrascope_order::{CycleRemedy, PixelSort};
 
-use crate::{GpuPath, IsosurfaceMethod, Mixing, Plan};
+use crate::{GpuPath, Interpolation, IsosurfaceMethod, Mixing, Plan};
 
 /// Why a plan is not drawn, whichever back end is asked.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -47,6 +47,15 @@ pub enum PlanError {
         "\"vertex\" integrates a fan of triangles, which a piece of a cell does not have; use another integration, or the remedy \"per-pixel\" for cycles"
     )]
     FanWithCut,
+    /// Fans interpolate colors, and no segments.
+    #[error(
+        "\"vertex\" interpolates colors over a fan of triangles in a way of its own, and interpolation \"{interpolation}\" is one of segments; use \
+         interpolation \"exact\", or another integration"
+    )]
+    FanWithInterpolation {
+        /// The interpolation.
+        interpolation: Interpolation,
+    },
     /// An integral stops at isosurfaces in a table; this integration has none.
     #[error(
         "integration \"{integration}\" has no table in which it could stop; use \"table-2d\" or \"table-3d\", or isosurfaces by \"exact\" or \"map-smooth\""
@@ -69,6 +78,15 @@ pub enum PlanError {
          end \"cpu\""
     )]
     CutOnGpu,
+    /// The GPU has segments as the planes have them.
+    #[error(
+        "the back end \"gpu\" has segments exactly, and not by interpolation \"{interpolation}\"; use the back end \"cpu\", or interpolation \
+         \"exact\""
+    )]
+    InterpolationOnGpu {
+        /// The interpolation.
+        interpolation: Interpolation,
+    },
     /// Only triangles have corners whose colors could be interpolated.
     #[error(
         "\"vertex\" integrates a fan of triangles, which the path \"compute\" of the back end \"gpu\" does not have; use the path \
@@ -94,6 +112,9 @@ impl Plan {
         if self.cycles == CycleRemedy::Cut && integration.needs_fan() {
             return Err(PlanError::FanWithCut);
         }
+        if self.interpolation != Interpolation::Exact && integration.needs_fan() {
+            return Err(PlanError::FanWithInterpolation { interpolation: self.interpolation });
+        }
         if self.order.pixel_sort() == PixelSort::Window(0) {
             return Err(PlanError::EmptyWindow);
         }
@@ -116,10 +137,13 @@ impl Plan {
     /// Checks what the back end `gpu` cannot do, besides what [`Self::check`] looks at. The plan's back end is not looked at.
     ///
     /// # Errors
-    /// [`PlanError::CutOnGpu`], [`PlanError::FanOnComputePath`] and [`PlanError::FanWithEffectsOnGpu`].
+    /// [`PlanError::CutOnGpu`], [`PlanError::InterpolationOnGpu`], [`PlanError::FanOnComputePath`] and [`PlanError::FanWithEffectsOnGpu`].
     pub fn check_on_gpu(&self) -> Result<(), PlanError> {
         if self.cycles == CycleRemedy::Cut {
             return Err(PlanError::CutOnGpu);
+        }
+        if self.interpolation != Interpolation::Exact {
+            return Err(PlanError::InterpolationOnGpu { interpolation: self.interpolation });
         }
         if self.integration.needs_fan() && self.gpu.path == Some(GpuPath::Compute) {
             return Err(PlanError::FanOnComputePath);

@@ -181,6 +181,10 @@ impl SceneFile {
                 Choice::Auto => None,
                 Choice::Named(integration) => Some(integration),
             },
+            interpolation: match file.quality.interpolation {
+                Choice::Auto => None,
+                Choice::Named(interpolation) => Some(interpolation),
+            },
             tables: None,
             order,
             cycles: CycleRemedy::Report,
@@ -197,6 +201,7 @@ impl SceneFile {
         let plan = scene.plan()?;
         decisions.extend(plan.decisions);
         file.quality.integration = Choice::Named(plan.integration);
+        file.quality.interpolation = Choice::Named(plan.interpolation);
         name_order(&mut file.quality, plan.order);
         Ok(Completed { file, scene, decisions, warnings, has_asked_for_cycles })
     }

@@ -52,6 +52,7 @@ shininess = 16.0
 volume = true
 [quality]
 integration = "average"
+interpolation = "screen"
 order = "bucket"
 slabs = 77
 window = 3

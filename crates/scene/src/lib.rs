@@ -46,6 +46,7 @@ mod field;
 #[cfg(feature = "file")]
 mod file;
 mod finite;
+mod interpolation;
 #[cfg(feature = "file")]
 mod parse;
 mod plan;
@@ -70,11 +71,11 @@ pub use file::{
     SurfaceSection, TransferSection,
 };
 pub use finite::{FieldOnMesh, place_on_mesh};
+pub use interpolation::{Interpolation, UnknownInterpolation};
 #[cfg(feature = "file")]
 pub use parse::{Position, SceneSyntaxError, WriteSceneError};
 pub use plan::{
-    Decision, Gradients, Interpolation, IsosurfaceMethod, IsosurfacePlan, Lighting, Mixing, Plan, Progress, Silent,
-    Stage,
+    Decision, Gradients, IsosurfaceMethod, IsosurfacePlan, Lighting, Mixing, Plan, Progress, Silent, Stage,
 };
 pub use rendered::{BufferRole, Counts, DeviceBuffer, DeviceReport, OrderReport, Rendered, Stopwatch};
 pub use scene::Scene;
@@ -90,6 +91,8 @@ mod field_tests;
 mod file_tests;
 #[cfg(all(test, feature = "file"))]
 mod gpu_tests;
+#[cfg(all(test, feature = "file"))]
+mod interpolation_tests;
 #[cfg(all(test, feature = "file"))]
 mod order_tests;
 #[cfg(all(test, feature = "file"))]

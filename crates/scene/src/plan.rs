@@ -9,7 +9,7 @@ use tetrascope_integrate::{
 use tetrascope_order::{CycleRemedy, OrderMethod};
 use tetrascope_view::View;
 
-use crate::{Backend, GpuOptions};
+use crate::{Backend, GpuOptions, Interpolation};
 
 /// What is to be computed for one picture: numbers and methods, no file names and no "auto".
 ///
@@ -50,41 +50,6 @@ pub struct Plan {
     pub termination: f32,
     /// What was chosen and what was left out, with the reason.
     pub decisions: Vec<Decision>,
-}
-
-/// How the scalars at both ends of a ray's way through a cell, and its length, are found at a pixel.
-///
-/// Without perspective all three are linear on the screen over each triangle of the cell's fan, and all ways give the same.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-pub enum Interpolation {
-    /// From the planes of the faces that the ray meets: what is linear in perspective is one over the depth, at each end by itself.
-    #[default]
-    Exact,
-    /// Linear over the fan's triangles with the perspective correction of graphics hardware, by the depth of the front alone: the
-    /// back of the cell, which lies deeper, is not where it puts it ([Kraus 2004]).
-    Perspective,
-    /// Linear on the screen over the fan's triangles, as the papers have it ([Shirley 1990], section 2.6).
-    Screen,
-}
-
-impl Interpolation {
-    /// All ways.
-    pub const ALL: [Self; 3] = [Self::Exact, Self::Perspective, Self::Screen];
-
-    /// The name in a scene file.
-    pub const fn name(self) -> &'static str {
-        match self {
-            Self::Exact => "exact",
-            Self::Perspective => "perspective",
-            Self::Screen => "screen",
-        }
-    }
-}
-
-impl fmt::Display for Interpolation {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.pad(self.name())
-    }
 }
 
 /// Isosurfaces, and how they are drawn.

@@ -38,6 +38,9 @@ pub struct Scene {
     pub lighting: Option<Lighting>,
     /// How a segment becomes color and opacity; `None` leaves it to [`Scene::plan`].
     pub integration: Option<Integration>,
+    /// How what a ray has inside a cell is found at a pixel; `None` leaves it to [`Scene::plan`], which takes the exact way: it costs less than
+    /// fans and has no error.
+    pub interpolation: Option<Interpolation>,
     /// Sizes of the integration's table; `None` takes the usual ones. Without effect for an integration without a table.
     pub tables: Option<TableSettings>,
     /// In which order cells are blended; `None` leaves it to [`Scene::plan`], which knows the optical model and not the mesh.
@@ -73,6 +76,7 @@ impl Scene {
         let lighting = self.lighting(isosurfaces.as_ref())?;
         let mut decisions = Vec::new();
         let (integration, tables) = self.decide_integration(&mut decisions)?;
+        let interpolation = self.decide_interpolation(integration, &mut decisions)?;
         self.check_isosurface_method(integration, isosurfaces.as_ref())?;
         self.check_cycles(integration)?;
         self.check_gpu(integration)?;
@@ -84,7 +88,7 @@ impl Scene {
             transfer,
             model: self.model,
             integration,
-            interpolation: Interpolation::Exact,
+            interpolation,
             tables,
             isosurfaces,
             lighting,

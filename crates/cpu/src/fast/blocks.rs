@@ -5,7 +5,8 @@ use fearless_simd::Simd;
 use super::careful::careful_sample;
 use super::cell::CarefulCell;
 use super::cover::{BlockRange, CoverList};
-use super::record::{CellRecord, Records};
+use super::interpolation::Interpolated;
+use super::record::{CellRecord, Listed};
 use super::sample::{BLOCK_HEIGHT, BLOCK_WIDTH, Sample};
 use crate::geometry::PixelSpace;
 
@@ -13,11 +14,20 @@ use crate::geometry::PixelSpace;
 #[derive(Clone, Copy)]
 pub(crate) struct Blocks<'a> {
     record: &'a CellRecord,
-    /// A cell to be drawn in f64.
-    careful: Option<&'a CarefulCell>,
+    /// What is done for cells whose samples are not as planes in f32 have them. One condition for all of them, so that the loop over
+    /// the blocks of all others has none.
+    apart: Option<Apart<'a>>,
     range: BlockRange,
     space: &'a PixelSpace,
     count: usize,
+}
+
+/// Another way to samples.
+#[derive(Clone, Copy)]
+enum Apart<'a> {
+    /// A cell to be drawn in f64.
+    Careful(&'a CarefulCell),
+    Interpolated(Interpolated<'a>),
 }
 
 impl<'a> Blocks<'a> {
@@ -25,20 +35,18 @@ impl<'a> Blocks<'a> {
     #[inline(always)]
     pub(crate) fn find<S: Simd>(
         simd: S,
-        records: &'a Records,
-        record: &'a CellRecord,
+        listed: Listed<'a>,
         range: BlockRange,
         space: &'a PixelSpace,
         covers: &mut CoverList,
     ) -> Self {
-        let careful = (record.entry_count == 0).then(|| &records.careful[record.careful as usize]);
-        let count = if careful.is_some() {
-            (range.rows * range.columns) as usize
-        } else {
-            covers.find(simd, record, range);
-            covers.len()
-        };
-        Self { record, careful, range, space, count }
+        let Listed { records, record, interpolated } = listed;
+        if record.entry_count == 0 {
+            let apart = Some(Apart::Careful(&records.careful[record.careful as usize]));
+            return Self { record, apart, range, space, count: (range.rows * range.columns) as usize };
+        }
+        covers.find(simd, record, range);
+        Self { record, apart: interpolated.map(Apart::Interpolated), range, space, count: covers.len() }
     }
 
     /// How many there are to be visited.
@@ -50,30 +58,36 @@ impl<'a> Blocks<'a> {
     /// A block's number and sample; `None` for one that the cell does not cover after all.
     #[inline(always)]
     pub(crate) fn get<S: Simd>(&self, simd: S, covers: &CoverList, index: usize) -> Option<(usize, Sample<S>)> {
-        match self.careful {
-            Some(careful) => sample_carefully(simd, careful, self.record, self.space, self.range, index as u32),
+        match self.apart {
+            Some(apart) => self.get_apart(simd, covers, apart, index),
             None => Some(covers.get(simd, index, self.record, self.space)),
         }
     }
-}
 
-/// The number and the sample of a cell's block that is drawn in f64, out of line: few are.
-#[inline(never)]
-fn sample_carefully<S: Simd>(
-    simd: S,
-    cell: &CarefulCell,
-    record: &CellRecord,
-    space: &PixelSpace,
-    range: BlockRange,
-    index: u32,
-) -> Option<(usize, Sample<S>)> {
-    simd.vectorize(
-        #[inline(always)]
-        || {
-            let (column, row) = (index % range.columns, index / range.columns);
-            let place = [range.pixel[0] + column * BLOCK_WIDTH, range.pixel[1] + row * BLOCK_HEIGHT];
-            let sample = careful_sample(simd, cell, record, space, place)?;
-            Some(((range.first + row * range.stride + column) as usize, sample))
-        },
-    )
+    /// [`Self::get`] out of line, for what few ask for.
+    #[inline(never)]
+    fn get_apart<S: Simd>(
+        self,
+        simd: S,
+        covers: &CoverList,
+        apart: Apart<'_>,
+        index: usize,
+    ) -> Option<(usize, Sample<S>)> {
+        let Self { record, range, space, .. } = self;
+        simd.vectorize(
+            #[inline(always)]
+            || match apart {
+                Apart::Careful(cell) => {
+                    let (column, row) = (index as u32 % range.columns, index as u32 / range.columns);
+                    let place = [range.pixel[0] + column * BLOCK_WIDTH, range.pixel[1] + row * BLOCK_HEIGHT];
+                    let sample = careful_sample(simd, cell, record, space, place)?;
+                    Some(((range.first + row * range.stride + column) as usize, sample))
+                }
+                Apart::Interpolated(interpolated) => {
+                    let (block, sample) = covers.get(simd, index, record, space);
+                    Some((block, interpolated.apply(simd, record, sample)))
+                }
+            },
+        )
+    }
 }

@@ -20,6 +20,7 @@ mod effects;
 mod fan;
 mod gradient;
 mod held;
+mod interpolation;
 mod lookup;
 mod maps;
 mod methods;
@@ -260,6 +261,7 @@ impl CpuRenderer {
             outlines,
             optics: &optics,
             with_fans,
+            interpolation: plan.interpolation,
             effects,
             gradients,
             pieces: &order.pieces,
@@ -438,6 +440,8 @@ fn remember<T>(kept: &Mutex<Vec<Arc<T>>>, new: T) -> Arc<T> {
     new
 }
 
+#[cfg(test)]
+mod interpolation_tests;
 #[cfg(test)]
 mod pieces_tests;
 #[cfg(test)]

@@ -12,6 +12,7 @@ use super::cell::{CarefulCell, CellPieces, Outline};
 use super::effects::CellEffects;
 use super::fan::Fan;
 use super::gradient::CellGradient;
+use super::interpolation::{Interpolated, PerspectiveFan, ScreenFan};
 use crate::geometry::{PixelBox, PixelSpace, is_outside_rectangle};
 use crate::grid::Tile;
 
@@ -64,6 +65,10 @@ pub(crate) struct Records {
     pub(crate) careful: Vec<CarefulCell>,
     /// One for each of `cells` where the integration asks for fans, else none.
     pub(crate) fans: Vec<Option<Fan>>,
+    /// One for each of `cells` where segments are interpolated with the perspective correction of hardware, else none.
+    pub(crate) perspective: Vec<Option<PerspectiveFan>>,
+    /// One for each of `cells` where segments are interpolated on the screen, else none.
+    pub(crate) screen: Vec<Option<ScreenFan>>,
     /// What cells have besides their volume; those that have it.
     pub(crate) effects: Vec<CellEffects>,
     /// Places among `cells` of those in rings whose pixels are to be sorted, ascending.
@@ -75,6 +80,16 @@ pub(crate) struct Records {
 }
 
 impl Records {
+    /// How the samples of a cell are interpolated; `None` where they are as its planes have them.
+    #[inline(always)]
+    fn interpolated(&self, item: u32) -> Option<Interpolated<'_>> {
+        let item = item as usize;
+        if let Some(fan) = self.perspective.get(item) {
+            return fan.as_ref().map(Interpolated::Perspective);
+        }
+        self.screen.get(item)?.as_ref().map(Interpolated::Screen)
+    }
+
     /// Whether a cell whose outline touches a tile may show in it: cells at the plane of the eye have the whole picture as outline.
     pub(crate) fn may_show(&self, item: usize, tile: Tile, space: &PixelSpace) -> bool {
         let record = &self.cells[item];
@@ -86,5 +101,21 @@ impl Records {
         let corners = &self.careful[record.careful as usize].corners;
         // Half a pixel of margin: rounding moves an outline by far less.
         !is_outside_rectangle(corners, [u0 - 0.5, u1 + 0.5], [w0 - 0.5, w1 + 0.5])
+    }
+}
+
+/// A record with what its run knows of it.
+#[derive(Clone, Copy)]
+pub(crate) struct Listed<'a> {
+    pub(crate) records: &'a Records,
+    pub(crate) record: &'a CellRecord,
+    pub(crate) interpolated: Option<Interpolated<'a>>,
+}
+
+impl<'a> Listed<'a> {
+    /// - `record`: the one at `item`, or a copy of it
+    #[inline(always)]
+    pub(crate) fn new(records: &'a Records, record: &'a CellRecord, item: u32) -> Self {
+        Self { records, record, interpolated: records.interpolated(item) }
     }
 }

@@ -6,6 +6,7 @@ use glam::{DVec2, DVec3};
 use tetrascope_classify::{DepthPlane, cut_at_depth};
 use tetrascope_mesh::{CellId, VertexId};
 use tetrascope_order::{CutPlane, Piece};
+use tetrascope_scene::Interpolation;
 
 use super::CpuRenderer;
 use super::cell::{CarefulCell, Cell, Outline};
@@ -35,6 +36,8 @@ pub(crate) struct SetUp<'a> {
     pub(crate) optics: &'a Optics,
     /// Whether the integration is defined on fans of triangles.
     pub(crate) with_fans: bool,
+    /// How segments are found at a pixel.
+    pub(crate) interpolation: Interpolation,
     /// Isosurfaces and light, if there are any.
     pub(crate) effects: Option<&'a Effects>,
     /// The gradient at every point, along the mesh's axes, where they are interpolated.
@@ -56,6 +59,8 @@ impl SetUp<'_> {
         records.cells.clear();
         records.careful.clear();
         records.fans.clear();
+        records.perspective.clear();
+        records.screen.clear();
         records.effects.clear();
         records.rings.clear();
         records.gradients.clear();
@@ -94,6 +99,9 @@ impl SetUp<'_> {
                     self.add_with_fan(cell, records);
                 } else {
                     self.add(cell, records);
+                }
+                if self.interpolation != Interpolation::Exact {
+                    records.add_fans_of_segments(self.interpolation, cell, before, self.space);
                 }
                 if let Some(effects) = self.effects {
                     self.add_effects(effects, cell, vertices, before, records);

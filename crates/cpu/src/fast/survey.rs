@@ -10,7 +10,7 @@ use tetrascope_scene::Plan;
 use super::blocks::Blocks;
 use super::cover::CoverList;
 use super::held::Held;
-use super::record::NO_EFFECTS;
+use super::record::{Listed, NO_EFFECTS};
 use super::sample::LANES;
 use super::tile::{Job, Pixels};
 use crate::grid::Tile;
@@ -106,7 +106,8 @@ impl Job<'_> {
                     continue;
                 }
                 let record = &records.cells[item as usize];
-                let blocks = Blocks::find(simd, records, record, pixels.range(tile, record), self.space, covers);
+                let listed = Listed::new(records, record, item);
+                let blocks = Blocks::find(simd, listed, pixels.range(tile, record), self.space, covers);
                 for visit in 0..blocks.len() {
                     if let Some((block, _)) = blocks.get(simd, covers, visit) {
                         held.take(block);
@@ -140,7 +141,8 @@ impl Job<'_> {
                 if !cell.has_surfaces() {
                     continue;
                 }
-                let blocks = Blocks::find(simd, records, record, pixels.range(tile, record), self.space, covers);
+                let listed = Listed::new(records, record, item);
+                let blocks = Blocks::find(simd, listed, pixels.range(tile, record), self.space, covers);
                 for visit in 0..blocks.len() {
                     if let Some((block, sample)) = blocks.get(simd, covers, visit)
                         && held.takes(block)

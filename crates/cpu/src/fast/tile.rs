@@ -13,7 +13,7 @@ use super::lookup::Lookup;
 use super::methods::{Average, CellOptics, Cumulative, Ends, Exact, Method, Partial, Tabulated, Vertex};
 use super::model::{Absorption, DensityEmitter, Emission, Emitter, Model};
 use super::optics::Optics;
-use super::record::{CellRecord, NO_EFFECTS, Records};
+use super::record::{CellRecord, Listed, NO_EFFECTS, Records};
 use super::sample::{BLOCK_HEIGHT, BLOCK_WIDTH, LANES, Light, Sample, lanes_from};
 use super::surfaces::{CellWithEffects, Joint};
 use super::survey::Sorting;
@@ -199,7 +199,8 @@ impl Job<'_> {
                     let table = self.lookup.map(|lookup| lookup.localize(record));
                     let cell = CellOptics { pieces: &pieces, fan, table };
                     let with_effects = self.effects_of(records, record, &mut surfaces);
-                    self.draw_cell::<S, I, M>(simd, records, record, cell, with_effects.as_ref(), &mut canvas);
+                    let listed = Listed::new(records, record, item);
+                    self.draw_cell::<S, I, M>(simd, listed, cell, with_effects.as_ref(), &mut canvas);
                     if let Some(held) = canvas.held.as_mut().filter(|held| held.is_full()) {
                         held.blend(simd, self.plan.termination, &mut canvas.pixels.blocks, false);
                     }
@@ -251,17 +252,16 @@ impl Job<'_> {
     fn draw_cell<S: Simd, I: Method, M: Model>(
         &self,
         simd: S,
-        records: &Records,
-        record: &CellRecord,
+        listed: Listed<'_>,
         cell: CellOptics<'_>,
         with_effects: Option<&CellWithEffects<'_>>,
         canvas: &mut Canvas<'_>,
     ) {
         let Canvas { tile, pixels, covers, held, done } = canvas;
-        let range = pixels.range(*tile, record);
+        let range = pixels.range(*tile, listed.record);
         let brush = Brush { cell, with_effects, termination: self.plan.termination };
         // One place of the code that shades: it is large, and compiled for every method.
-        let blocks = Blocks::find(simd, records, record, range, self.space, covers);
+        let blocks = Blocks::find(simd, listed, range, self.space, covers);
         for index in 0..blocks.len() {
             let Some((block, sample)) = blocks.get(simd, covers, index) else { continue };
             brush.blend::<S, I, M>(simd, sample, block, pixels, held.as_mut(), done);

@@ -5,7 +5,7 @@ use tetrascope_integrate::{Integration, LengthAxis};
 use tetrascope_order::{CycleRemedy, OrderMethod};
 
 use super::names::{Choice, as_optional_name};
-use crate::{Backend, GpuPath, IsosurfaceMethod, Mixing};
+use crate::{Backend, GpuPath, Interpolation, IsosurfaceMethod, Mixing};
 
 /// `[quality]`
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -13,6 +13,8 @@ use crate::{Backend, GpuPath, IsosurfaceMethod, Mixing};
 pub struct QualitySection {
     /// How a ray's segment in a cell becomes color and opacity.
     pub integration: Choice<Integration>,
+    /// How what a ray has inside a cell is found at a pixel.
+    pub interpolation: Choice<Interpolation>,
     /// In which order cells are blended.
     pub order: Choice<OrderMethod>,
     /// Number of slabs, for `order = "bucket"` only.
@@ -63,6 +65,7 @@ impl Default for QualitySection {
     fn default() -> Self {
         Self {
             integration: Choice::Auto,
+            interpolation: Choice::Auto,
             order: Choice::Auto,
             slabs: None,
             window: None,

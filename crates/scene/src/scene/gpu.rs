@@ -4,7 +4,7 @@ use tetrascope_integrate::Integration;
 use tetrascope_order::{CycleRemedy, OrderMethod, PixelSort};
 
 use super::Scene;
-use crate::{Backend, Decision, GpuOptions, GpuPath, SceneError};
+use crate::{Backend, Decision, GpuOptions, GpuPath, Interpolation, SceneError};
 
 /// Cells that a pixel can hold back on a GPU.
 const MOST_WINDOW: u32 = 63;
@@ -29,6 +29,15 @@ impl Scene {
                 value: self.cycles.to_string(),
                 problem: "leaves pieces of cells, and the back end \"gpu\" draws whole ones".to_owned(),
                 remedy: "use quality.cycles = \"per-pixel\" or quality.backend = \"cpu\"",
+            });
+        }
+        let interpolation = self.chosen_interpolation();
+        if interpolation != Interpolation::Exact {
+            return Some(SceneError::Conflict {
+                key: "quality.interpolation",
+                value: interpolation.to_string(),
+                problem: "is drawn on the back end \"cpu\" alone".to_owned(),
+                remedy: "use quality.backend = \"cpu\" or quality.interpolation = \"exact\"",
             });
         }
         let has_effects = self.isosurfaces.iter().any(|surface| surface.opacity > 0.0)

@@ -1,10 +1,11 @@
 //! Which integration, which table and which way to isosurfaces, and whether they go together.
 
 use tetrascope_integrate::{Integration, LengthAxis, TableSettings};
+use tetrascope_view::Projection;
 
 use super::Scene;
 use crate::text::short;
-use crate::{Decision, IsosurfaceMethod, IsosurfacePlan, Mixing, SceneError};
+use crate::{Backend, Decision, Interpolation, IsosurfaceMethod, IsosurfacePlan, Mixing, SceneError};
 
 impl Scene {
     /// The integration, and why.
@@ -38,6 +39,42 @@ impl Scene {
             decisions.push(Decision::new("tables", "none", "the integration looks nothing up"));
         }
         Ok((integration, tables))
+    }
+
+    /// The interpolation: exact where none was asked for, and where there is no perspective.
+    pub(super) fn chosen_interpolation(&self) -> Interpolation {
+        match self.camera.projection {
+            Projection::Perspective { .. } => self.interpolation.unwrap_or_default(),
+            Projection::Orthographic { .. } => Interpolation::Exact,
+        }
+    }
+
+    pub(super) fn decide_interpolation(
+        &self,
+        integration: Integration,
+        decisions: &mut Vec<Decision>,
+    ) -> Result<Interpolation, SceneError> {
+        let Some(asked) = self.interpolation else { return Ok(Interpolation::Exact) };
+        if asked != Interpolation::Exact && integration.needs_fan() {
+            return Err(SceneError::Conflict {
+                key: "quality.interpolation",
+                value: asked.to_string(),
+                problem: format!(
+                    "is a way to segments, and quality.integration = \"{integration}\" interpolates colors in a way of its own"
+                ),
+                remedy: "use quality.interpolation = \"exact\" or another integration, such as \"exact\"",
+            });
+        }
+        let chosen = self.chosen_interpolation();
+        let (choice, reason) = if chosen != asked {
+            (chosen, "there is no perspective to correct: all ways give the same")
+        } else if asked != Interpolation::Exact && self.backend == Some(Backend::Reference) {
+            (Interpolation::Exact, "the reference clips every ray")
+        } else {
+            (chosen, "asked for")
+        };
+        decisions.push(Decision::new("interpolation", choice.name(), reason));
+        Ok(chosen)
     }
 
     /// Refuses ways to isosurfaces that the integration or the opacities do not allow.
