@@ -62,6 +62,7 @@ Examples:
   tetrascope render case.vtu --isosurface 0.5:1,0.8,0.2 --isosurface 0.8:0.2,0.5,1,0.4 --shading smooth
   tetrascope render case.vtu --write-scene case.toml     keep all numbers, to be edited
   tetrascope render case.toml                            the same picture again
+  tetrascope render case.vtu --max-error 1e-4 --verify   as fast as that error allows, and what it was
 
 Control points are in the field's own units and in ascending order; between them color and extinction are linear. Two
 points at one scalar make a step. Extinction is per world unit of length: 1 takes away 63 % of the light behind within one unit.
@@ -222,8 +223,9 @@ pub(crate) struct SceneArgs {
     /// Number of slabs for --order bucket [default: 20]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..), help_heading = "Method")]
     pub(crate) slabs: Option<u32>,
-    /// The largest error wanted in a channel, 0 to 1; it changes nothing yet, as auto takes the exact integration
-    #[arg(long, value_name = "ERROR", help_heading = "Method")]
+    /// The largest error wanted in a channel, 0 to 1: a number, or a fraction such as 1/255; auto takes the integration that
+    /// is expected to meet it in the least time [default: 0.00392]
+    #[arg(long, value_name = "ERROR", value_parser = fraction, help_heading = "Method")]
     pub(crate) max_error: Option<f64>,
     /// auto, cpu, gpu, or reference (64-bit, every ray against every cell: slow) [default: cpu]
     #[arg(long, value_name = "NAME", help_heading = "Method")]
@@ -256,6 +258,13 @@ pub(crate) struct RenderArgs {
     /// Write a scene file (.toml, .json) with every default as a number
     #[arg(long, value_name = "FILE", help_heading = "Report")]
     pub(crate) write_scene: Option<PathBuf>,
+    /// Draw the reference as well, every ray against every cell in 64 bits, and say what the error was
+    #[arg(long, conflicts_with = "quiet", help_heading = "Report")]
+    pub(crate) verify: bool,
+    /// Write the error of every pixel, by drawing the reference: .exr (the absolute error of each channel, linear) or .png (black up to
+    /// 1e-5, white from 1 on, by the logarithm)
+    #[arg(long, value_name = "IMAGE", help_heading = "Report")]
+    pub(crate) error_map: Option<PathBuf>,
     /// Report on standard output as one JSON object
     #[arg(long, help_heading = "Report")]
     pub(crate) json: bool,

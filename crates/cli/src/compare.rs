@@ -134,13 +134,10 @@ fn values_of(image: &PngImage) -> LinearImage {
 }
 
 /// Writes where the pictures differ; gives the path for the report.
-fn write_difference(path: &Path, picture: &LinearImage, other: &LinearImage) -> Result<String, Failure> {
+pub(crate) fn write_difference(path: &Path, picture: &LinearImage, other: &LinearImage) -> Result<String, Failure> {
     let is_linear = path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("exr"));
     let written = if is_linear {
-        let pairs = picture.pixels().iter().zip(other.pixels());
-        let pixels = pairs.map(|(a, b)| std::array::from_fn(|channel| (a[channel] - b[channel]).abs())).collect();
-        let differences = LinearImage::from_pixels(other.width(), other.height(), pixels);
-        differences.map(|differences| write_exr(path, &differences))
+        PixelDifference::channels(picture, other).map(|differences| write_exr(path, &differences))
     } else {
         let map = PixelDifference::between(picture, other).map(other.width());
         map.map(|map| write_png(path, &map, [0.0; 3]))

@@ -4,12 +4,13 @@ use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
 use tetrascope::{
-    CameraSection, Choice, Completed, GpuPath, IsosurfaceSection, Plan, ProjectionName, Rendered, SceneFile, Volume,
-    VolumeField, explain_blank, is_blank, resolve_path, warn_of_non_finite, write_image,
+    CameraSection, Choice, Completed, ErrorFigures, GpuPath, IsosurfaceSection, Plan, ProjectionName, Rendered,
+    SceneFile, Volume, VolumeField, explain_blank, is_blank, resolve_path, warn_of_non_finite, write_image,
 };
 
 use crate::Failure;
 use crate::args::{CameraArgs, RenderArgs, SceneArgs};
+use crate::compare::write_difference;
 use crate::progress::Bar;
 use crate::report::Report;
 use crate::scene_paths::{self, folder_of, is_scene};
@@ -31,6 +32,8 @@ pub(crate) fn run(args: &RenderArgs) -> Result<(), Failure> {
         quiet: args.quiet,
         json: args.json,
         explain: args.explain,
+        verify: args.verify,
+        error_map: args.error_map.as_deref(),
     };
     job.run()
 }
@@ -51,6 +54,10 @@ pub(crate) struct Job<'a> {
     pub(crate) json: bool,
     /// Whether the device's memory, times and pipelines are told.
     pub(crate) explain: bool,
+    /// Whether the reference is drawn and compared with.
+    pub(crate) verify: bool,
+    /// Where the error of every pixel goes.
+    pub(crate) error_map: Option<&'a Path>,
 }
 
 impl Job<'_> {
@@ -58,6 +65,7 @@ impl Job<'_> {
     pub(crate) fn run(&self) -> Result<(), Failure> {
         // What can be wrong with the targets is said before minutes of work, not after.
         self.outputs.iter().try_for_each(|path| check_target(path, &["png", "exr"], "pictures"))?;
+        self.error_map.iter().try_for_each(|path| check_target(path, &["exr", "png"], "error maps"))?;
         self.write_scene.iter().try_for_each(|path| check_target(path, &["toml", "json"], "scenes"))?;
         let start = Instant::now();
         let bar = Bar::new(self.quiet);
@@ -102,6 +110,40 @@ impl Job<'_> {
         }
         let written_in = self.write(&completed, &plan, &rendered, report)?;
         report.wrote_in(written_in);
+        self.say_errors(&field, &plan, &rendered, bar, report)
+    }
+
+    /// How wrong the picture is thought to be, and how wrong it is where that was asked for. After the picture was written: it is not
+    /// lost if the reference takes too long.
+    fn say_errors(
+        &self,
+        field: &VolumeField<'_>,
+        plan: &Plan,
+        rendered: &Rendered,
+        bar: &Bar,
+        report: &mut Report,
+    ) -> Result<(), Failure> {
+        if !self.quiet {
+            bar.step("estimating the error");
+            let start = Instant::now();
+            let estimate = field.estimate_error(plan, rendered)?;
+            bar.clear();
+            report.error(&estimate, self.scene.quality.max_error, start.elapsed());
+        }
+        if !self.verify && self.error_map.is_none() {
+            return Ok(());
+        }
+        let start = Instant::now();
+        let exact = field.reference_picture(plan, bar)?;
+        bar.clear();
+        if let Some(figures) = ErrorFigures::between(&rendered.image, &exact).filter(|_| self.verify) {
+            report.verified(&figures, self.scene.quality.max_error);
+        }
+        if let Some(path) = self.error_map {
+            write_difference(path, &rendered.image, &exact)?;
+            report.wrote(path);
+        }
+        report.verified_in(start.elapsed());
         Ok(())
     }
 

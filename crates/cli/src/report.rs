@@ -5,8 +5,8 @@ use std::time::Duration;
 
 use serde_json::{Map, Value, json};
 use tetrascope::{
-    Backend, BufferRole, Completed, CycleRemedy, DeviceReport, Gradients, Integration, LengthAxis, OrderWorth, Plan,
-    Projection, Rendered, TargetBits, Volume, VolumeField, short,
+    Backend, BufferRole, Cause, Completed, CycleRemedy, DeviceReport, ErrorEstimate, ErrorFigures, ErrorPart,
+    Gradients, Integration, LengthAxis, OrderWorth, Plan, Projection, Rendered, TargetBits, Volume, VolumeField, short,
 };
 
 /// Collects what was done; people read it line by line as it happens, machines at the end.
@@ -234,6 +234,58 @@ impl Report {
         self.warn(&format!("the picture is blank: {why}"));
     }
 
+    /// How wrong the picture is thought to be; a warning if the scene itself wants less.
+    pub(crate) fn error(&mut self, estimate: &ErrorEstimate, wanted: Option<f64>, time: Duration) {
+        let ErrorEstimate { parts, expected, bound, rays } = estimate;
+        let text = format!(
+            "{} is the largest expected in a channel, an estimate from {rays} rays; at most {}",
+            short(*expected),
+            short(*bound)
+        );
+        self.say("error", &text);
+        self.say("", &parts.iter().map(part_of_error).collect::<Vec<_>>().join(", "));
+        let of_parts: Map<String, Value> = parts
+            .iter()
+            .map(|part| (part.cause.to_string(), json!({ "expected": part.expected, "bound": part.bound })))
+            .collect();
+        self.put("error", json!({ "expected": expected, "bound": bound, "rays": rays, "parts": of_parts }));
+        self.timings.push(("estimate".to_owned(), time));
+        if let Some(wanted) = wanted.filter(|wanted| expected > wanted) {
+            let worst = parts.iter().max_by(|a, b| a.expected.total_cmp(&b.expected));
+            let remedy = worst.map_or("", |part| remedy_of(part.cause));
+            self.warn(&format!(
+                "the error is expected to be {}, more than the {} that is wanted; {remedy}, or --verify for what it is",
+                short(*expected),
+                short(wanted)
+            ));
+        }
+    }
+
+    /// How wrong the picture is; a warning if the scene itself wants less.
+    pub(crate) fn verified(&mut self, figures: &ErrorFigures, wanted: Option<f64>) {
+        let &ErrorFigures { largest, at: (x, y), root_mean_square, percentile_99_9, share_above_step } = figures;
+        let text = format!(
+            "the largest error is {} at column {x}, row {y}; rms {}, 99.9 % of the pixels within {}, {} % over 1/255",
+            short(largest),
+            short(root_mean_square),
+            short(percentile_99_9),
+            short(100.0 * share_above_step)
+        );
+        self.say("verified", &text);
+        self.put(
+            "verified",
+            json!({ "largest": largest, "at": [x, y], "rms": root_mean_square, "p99.9": percentile_99_9,
+                "share_above_1/255": share_above_step }),
+        );
+        if let Some(wanted) = wanted.filter(|wanted| largest > *wanted) {
+            self.warn(&format!("the error is {}, more than the {} that is wanted", short(largest), short(wanted)));
+        }
+    }
+
+    pub(crate) fn verified_in(&mut self, time: Duration) {
+        self.timings.push(("verify".to_owned(), time));
+    }
+
     pub(crate) fn wrote(&mut self, path: &Path) {
         self.written.push(path.display().to_string());
         self.say("wrote", &path.display().to_string());
@@ -351,4 +403,24 @@ fn to_stderr(kind: &str, text: &str) {
     use std::io::Write;
     // With standard error closed there is nowhere left to complain.
     let _ = writeln!(std::io::stderr().lock(), "{kind}: {text}");
+}
+
+/// One cause in a line of causes.
+fn part_of_error(part: &ErrorPart) -> String {
+    let ErrorPart { cause, expected, bound } = *part;
+    match bound {
+        Some(0.0) => format!("{cause} none"),
+        Some(bound) => format!("{cause} {} (estimate; at most {})", short(expected), short(bound)),
+        None => format!("{cause} {} (estimate)", short(expected)),
+    }
+}
+
+/// What makes a cause's error less.
+const fn remedy_of(cause: Cause) -> &'static str {
+    match cause {
+        Cause::Integration => "use --integration exact or auto",
+        Cause::Order => "use --order auto",
+        Cause::Interpolation => "use --interpolation exact",
+        Cause::Blending => "use --backend reference",
+    }
 }

@@ -27,6 +27,8 @@ pub(crate) fn run() -> Result<(), Failure> {
         quiet: false,
         json: false,
         explain: false,
+        verify: false,
+        error_map: None,
     }
     .run()?;
     line("\nTry next:");

@@ -169,7 +169,7 @@ fn render_here(mesh: &TetMesh, scalars: &[f64], plan: &Plan, progress: &dyn Prog
         table_entries: job.composer.integrator.table_entries(),
         // It cuts rays at the surfaces where other back ends look them up.
         map_entries: 0,
-        point_gradients: job.composer.light.as_ref().map_or(0, Light::point_gradients),
+        point_gradients: job.composer.point_gradients(),
         cell_gradients: None,
         with_effects: None,
         lit: None,

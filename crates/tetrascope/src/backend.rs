@@ -1,7 +1,8 @@
 //! Who draws a scene that leaves it open.
 
+use tetrascope_estimate::ROUNDING_OF_32_BITS;
 use tetrascope_gpu::{AdapterDescription, GpuError};
-use tetrascope_scene::{Backend, Completed};
+use tetrascope_scene::{Backend, Completed, short};
 
 use crate::{Error, VolumeField};
 
@@ -13,6 +14,11 @@ impl VolumeField<'_> {
     pub(crate) fn settle_backend(&self, completed: &mut Completed) -> Result<(), Error> {
         if !completed.leaves_backend_open() {
             return Ok(());
+        }
+        if completed.max_error() < ROUNDING_OF_32_BITS {
+            let reason =
+                format!("the others compute in 32 bits, and an error of {} is wanted", short(completed.max_error()));
+            return Ok(completed.settle_backend(Backend::Reference, &reason)?);
         }
         if let Some(conflict) = completed.scene.why_not_on_gpu() {
             return Ok(completed.settle_backend(Backend::Cpu, &conflict.to_string())?);

@@ -1,9 +1,11 @@
 //! How wrong a picture of a field is.
 
-use tetrascope_estimate::{BlendingOrder, ErrorEstimate, Subject, Survey, choose_integration, estimate};
+use tetrascope_estimate::{
+    BlendingOrder, ErrorEstimate, ROUNDING_OF_32_BITS, Subject, Survey, choose_integration, estimate,
+};
 use tetrascope_mesh::CellId;
 use tetrascope_order::{CycleRemedy, Guarantee, OrderMethod};
-use tetrascope_scene::{Backend, Completed, Interpolation, Plan, Progress, Rendered};
+use tetrascope_scene::{Backend, Completed, Interpolation, Plan, Progress, Rendered, short};
 use tetrascope_view::LinearImage;
 
 use crate::threads::on_threads;
@@ -46,6 +48,15 @@ impl VolumeField<'_> {
     /// [`Error::Scene`] and [`Error::Render`].
     pub(crate) fn settle_integration(&self, completed: &mut Completed) -> Result<(), Error> {
         let backend = completed.scene.backend;
+        let wanted = completed.max_error();
+        if wanted < ROUNDING_OF_32_BITS && backend != Some(Backend::Reference) {
+            completed.warnings.push(format!(
+                "an error of {} is wanted, and a picture in 32 bits may be off by {} in single pixels; quality.backend = \"reference\" is within \
+                 1e-7, slowly",
+                short(wanted),
+                short(ROUNDING_OF_32_BITS)
+            ));
+        }
         if !completed.leaves_integration_open() || backend == Some(Backend::Reference) {
             return Ok(());
         }
@@ -54,7 +65,7 @@ impl VolumeField<'_> {
             return Ok(());
         }
         let plan = completed.scene.plan()?;
-        let choice = choose_integration(self.mesh(), &self.on_mesh.scalars, &plan, completed.max_error())?;
+        let choice = choose_integration(self.mesh(), &self.on_mesh.scalars, &plan, wanted)?;
         Ok(completed.settle_integration(choice.integration, choice.tables, &choice.reason)?)
     }
 

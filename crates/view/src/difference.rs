@@ -79,6 +79,16 @@ impl PixelDifference {
         Self { by_pixel }
     }
 
+    /// The absolute differences of all channels as a picture; `None` if the two differ in size.
+    pub fn channels(picture: &LinearImage, exact: &LinearImage) -> Option<LinearImage> {
+        if (picture.width(), picture.height()) != (exact.width(), exact.height()) {
+            return None;
+        }
+        let pixels = picture.pixels().iter().zip(exact.pixels());
+        let pixels = pixels.map(|(a, b)| std::array::from_fn(|channel| (a[channel] - b[channel]).abs())).collect();
+        LinearImage::from_pixels(picture.width(), picture.height(), pixels)
+    }
+
     /// Pixels with a difference above a limit.
     pub fn above(&self, limit: f32) -> usize {
         self.by_pixel.iter().filter(|difference| **difference > limit).count()

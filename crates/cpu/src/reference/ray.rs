@@ -120,6 +120,11 @@ impl<'a> RayComposer<'a> {
         }
     }
 
+    /// Gradients that were computed, one a point; 0 if none are interpolated.
+    pub(crate) fn point_gradients(&self) -> u64 {
+        self.light.as_ref().map_or(0, Light::point_gradients)
+    }
+
     /// Composes the fragments of a ray, sorted by where they begin, until nothing behind can be seen.
     ///
     /// - `corners`: of a cell, in pixel space
