@@ -27,7 +27,7 @@ impl Report {
 
     fn say(&self, subject: &str, text: &str) {
         if !self.quiet && !self.json {
-            line(&format!("{subject:<12}{text}"));
+            line(&format!("{subject:<11} {text}"));
         }
     }
 

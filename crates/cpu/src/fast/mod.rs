@@ -77,8 +77,9 @@ const KEPT: usize = 2;
 ///
 /// Holds its own copy of what it needs: 17 bytes a tetrahedron and 32 a point, and up to 12 more a tetrahedron for each of
 /// the last two transfer functions. The memory of a frame is kept for the next one: about 140 bytes a visible tetrahedron. Where
-/// plans ask for them, also 24 bytes a point of gradients, and the last two tables and maps; and where pixels sort by themselves, for each
-/// thread 32 bytes for every fragment of the fullest tile of 32 by 32 pixels, or with a window, of those that it holds back.
+/// plans ask for them, also 24 bytes a point of gradients, up to 112 a visible tetrahedron for segments by fans, and the last two tables
+/// and maps; and where pixels sort by themselves, for each thread 32 bytes for every fragment of the fullest tile of 32 by 32 pixels, or
+/// with a window, of those that it holds back.
 #[derive(Debug)]
 pub struct CpuRenderer {
     frame: Frame,
