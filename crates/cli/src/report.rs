@@ -6,7 +6,8 @@ use std::time::Duration;
 use serde_json::{Map, Value, json};
 use tetrascope::{
     Backend, BufferRole, Cause, Completed, CycleRemedy, DeviceReport, ErrorEstimate, ErrorFigures, ErrorPart,
-    Gradients, Integration, LengthAxis, OrderWorth, Plan, Projection, Rendered, TargetBits, Volume, VolumeField, short,
+    Gradients, Integration, LengthAxis, OrderWorth, Plan, Projection, Rendered, TargetBits, Volume, VolumeField, rough,
+    short,
 };
 
 /// Collects what was done; people read it line by line as it happens, machines at the end.
@@ -239,8 +240,8 @@ impl Report {
         let ErrorEstimate { parts, expected, bound, rays } = estimate;
         let text = format!(
             "{} is the largest expected in a channel, an estimate from {rays} rays; at most {}",
-            short(*expected),
-            short(*bound)
+            rough(*expected),
+            rough(*bound)
         );
         self.say("error", &text);
         self.say("", &parts.iter().map(part_of_error).collect::<Vec<_>>().join(", "));
@@ -255,8 +256,8 @@ impl Report {
             let remedy = worst.map_or("", |part| remedy_of(part.cause));
             self.warn(&format!(
                 "the error is expected to be {}, more than the {} that is wanted; {remedy}, or --verify for what it is",
-                short(*expected),
-                short(wanted)
+                rough(*expected),
+                rough(wanted)
             ));
         }
     }
@@ -266,9 +267,9 @@ impl Report {
         let &ErrorFigures { largest, at: (x, y), root_mean_square, percentile_99_9, share_above_step } = figures;
         let text = format!(
             "the largest error is {} at column {x}, row {y}; rms {}, 99.9 % of the pixels within {}, {} % over 1/255",
-            short(largest),
-            short(root_mean_square),
-            short(percentile_99_9),
+            rough(largest),
+            rough(root_mean_square),
+            rough(percentile_99_9),
             short(100.0 * share_above_step)
         );
         self.say("verified", &text);
@@ -278,7 +279,7 @@ impl Report {
                 "share_above_1/255": share_above_step }),
         );
         if let Some(wanted) = wanted.filter(|wanted| largest > *wanted) {
-            self.warn(&format!("the error is {}, more than the {} that is wanted", short(largest), short(wanted)));
+            self.warn(&format!("the error is {}, more than the {} that is wanted", rough(largest), rough(wanted)));
         }
     }
 
@@ -410,8 +411,8 @@ fn part_of_error(part: &ErrorPart) -> String {
     let ErrorPart { cause, expected, bound } = *part;
     match bound {
         Some(0.0) => format!("{cause} none"),
-        Some(bound) => format!("{cause} {} (estimate; at most {})", short(expected), short(bound)),
-        None => format!("{cause} {} (estimate)", short(expected)),
+        Some(bound) => format!("{cause} {} (estimate; at most {})", rough(expected), rough(bound)),
+        None => format!("{cause} {} (estimate)", rough(expected)),
     }
 }
 

@@ -62,6 +62,8 @@ pub mod rays;
 pub mod reference;
 
 #[cfg(test)]
+mod rays_tests;
+#[cfg(test)]
 mod reference_tests;
 
 pub use error::RenderError;

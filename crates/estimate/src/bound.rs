@@ -26,6 +26,8 @@ pub(crate) struct Bounds {
     pub(crate) integration: Option<f64>,
     /// Error of the order, likewise.
     pub(crate) order: Option<f64>,
+    /// Error of the interpolation, likewise.
+    pub(crate) interpolation: Option<f64>,
     /// The whole error of any picture of the scene.
     pub(crate) total: f64,
 }
@@ -36,15 +38,20 @@ pub(crate) fn bounds(subject: &Subject<'_>, tracer: &RayTracer<'_>) -> Bounds {
     let brightest = Brightest::of(subject);
     let has_maps = plan.isosurfaces.as_ref().is_some_and(|surfaces| surfaces.method != IsosurfaceMethod::Exact);
     let is_right_order = matches!(subject.order, BlendingOrder::Right);
-    let is_exact = is_exact(plan);
+    let interpolates = plan.interpolation != Interpolation::Exact;
     let total = brightest.of_picture();
-    if is_exact && is_right_order {
-        return Bounds { integration: Some(0.0), order: Some(0.0), total };
+    let none = Bounds { integration: Some(0.0), order: Some(0.0), interpolation: Some(0.0), total };
+    if is_exact(plan) && is_right_order && !interpolates {
+        return none;
     }
     let sums = largest_sums(subject, tracer, &brightest);
-    let integration = if is_exact { Some(0.0) } else { (!has_maps).then(|| sums.error.min(total)) };
-    let order = if is_right_order { 0.0 } else { brightest.of_order(&sums, plan).min(total) };
-    Bounds { integration, order: Some(order), total }
+    let of_segments = (!has_maps).then(|| sums.error.min(total));
+    Bounds {
+        integration: if is_exact(plan) { Some(0.0) } else { of_segments },
+        order: if is_right_order { Some(0.0) } else { Some(brightest.of_order(&sums, plan).min(total)) },
+        interpolation: if interpolates { of_segments } else { Some(0.0) },
+        total,
+    }
 }
 
 /// Whether nothing but rounding is between the integration and the exact one.
@@ -56,7 +63,7 @@ pub(crate) fn is_exact(plan: &Plan) -> bool {
         _ => false,
     };
     let has_maps = plan.isosurfaces.as_ref().is_some_and(|surfaces| surfaces.method != IsosurfaceMethod::Exact);
-    by_integrals && !has_maps && plan.interpolation == Interpolation::Exact
+    by_integrals && !has_maps
 }
 
 /// What values of a picture do not exceed.

@@ -5,7 +5,7 @@ use tetrascope_cpu::RenderError;
 use tetrascope_cpu::rays::RayTracer;
 use tetrascope_integrate::{Integration, TableSettings};
 use tetrascope_mesh::TetMesh;
-use tetrascope_scene::{Plan, Silent, short};
+use tetrascope_scene::{Plan, Silent, rough, short};
 
 use crate::bound::bounds;
 use crate::cost::Work;
@@ -100,7 +100,7 @@ pub fn choose_integration(
         candidate.bound = bounds(&subject, &tracer).integration;
         let mut said = None;
         if let Some(bound) = candidate.bound.filter(|bound| bound + RESERVE <= max_error) {
-            said = Some(format!("its error is at most {}", short(bound)));
+            said = Some(format!("its error is at most {}", rough(bound)));
         } else {
             let probe: &mut Probe<'_> = match &mut probe {
                 Some(probe) => probe,
@@ -112,13 +112,13 @@ pub fn choose_integration(
             let expected = probe.extrapolated(errors.iter().copied().fold(0.0, f64::max));
             candidate.expected = Some(expected);
             if expected + RESERVE <= max_error {
-                said = Some(format!("its error is estimated at {} on {} rays", short(expected), errors.len()));
+                said = Some(format!("its error is estimated at {} on {} rays", rough(expected), errors.len()));
             }
         }
         if let Some(said) = said {
             let percent = short((100.0 * candidate.relative_time).round());
             let reason =
-                format!("{said}, within {}; it is expected to take {percent} % of the time of exact", short(max_error));
+                format!("{said}, within {}; it is expected to take {percent} % of the time of exact", rough(max_error));
             return Ok(IntegrationChoice { integration, tables, reason, candidates });
         }
     }
@@ -127,7 +127,7 @@ pub fn choose_integration(
     } else {
         format!(
             "closed form in every piece of the transfer function; those that take less time are not within {}",
-            short(max_error)
+            rough(max_error)
         )
     };
     Ok(IntegrationChoice { integration: Integration::Exact, tables: None, reason, candidates })

@@ -108,14 +108,14 @@ pub fn estimate(subject: &Subject<'_>, picture: &LinearImage) -> Result<ErrorEst
         let largest = (0..probe.rays.len()).map(error).fold(0.0, f64::max);
         ErrorPart { cause, expected: probe.extrapolated(largest), bound }
     };
-    let Bounds { integration, order, total } = bounds(subject, &tracer);
+    let Bounds { integration, order, interpolation, total } = bounds(subject, &tracer);
     let rest = |ray: usize| difference(&pixel(&probe, ray), &lights[ray][1]);
     let none = |cause| ErrorPart { cause, expected: 0.0, bound: Some(0.0) };
     let interpolates = plan.interpolation != Interpolation::Exact;
     let parts = [
         part(Cause::Integration, &|ray| difference(&lights[ray][0], &probe.exact[ray]), integration),
         part(Cause::Order, &|ray| difference(&lights[ray][1], &lights[ray][0]), order),
-        if interpolates { part(Cause::Interpolation, &rest, None) } else { none(Cause::Interpolation) },
+        if interpolates { part(Cause::Interpolation, &rest, interpolation) } else { none(Cause::Interpolation) },
         if interpolates {
             ErrorPart { cause: Cause::Blending, expected: ROUNDING, bound: None }
         } else {

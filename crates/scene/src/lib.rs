@@ -80,7 +80,7 @@ pub use plan::{
 pub use rendered::{BufferRole, Counts, DeviceBuffer, DeviceReport, OrderReport, Rendered, Stopwatch};
 pub use scene::Scene;
 pub use shown::{Shown, surfaces_near};
-pub use text::short;
+pub use text::{rough, short};
 pub use work::{Bytes, Fragments, MapWork, TableWork, Work, WorkBuffer};
 
 #[cfg(all(test, feature = "file"))]

@@ -1,5 +1,17 @@
 //! Numbers in messages.
 
+/// An error with two digits, for messages: more would say more than is known.
+pub fn rough(error: f64) -> String {
+    if error == 0.0 {
+        "0".to_owned()
+    } else if (1e-3..10.0).contains(&error) {
+        let digits = (1.0 - error.log10().floor()) as usize;
+        format!("{error:.digits$}")
+    } else {
+        format!("{error:.1e}")
+    }
+}
+
 /// A number with five digits, for messages.
 pub fn short(value: f64) -> String {
     let size = value.abs();
@@ -19,5 +31,20 @@ pub fn short(value: f64) -> String {
         }
     } else {
         value.to_string()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn errors_have_two_digits() {
+        for (error, text) in
+            [(0.0, "0"), (0.0039216, "0.0039"), (1.0, "1.0"), (0.25, "0.25"), (6e-8, "6.0e-8"), (123.0, "1.2e2")]
+        {
+            assert_eq!(rough(error), text);
+        }
+        assert_eq!(rough(f64::INFINITY), "inf");
     }
 }

@@ -2,7 +2,7 @@
 
 use tetrascope_estimate::ROUNDING_OF_32_BITS;
 use tetrascope_gpu::{AdapterDescription, GpuError};
-use tetrascope_scene::{Backend, Completed, short};
+use tetrascope_scene::{Backend, Completed, rough};
 
 use crate::{Error, VolumeField};
 
@@ -17,7 +17,7 @@ impl VolumeField<'_> {
         }
         if completed.max_error() < ROUNDING_OF_32_BITS {
             let reason =
-                format!("the others compute in 32 bits, and an error of {} is wanted", short(completed.max_error()));
+                format!("the others compute in 32 bits, and an error of {} is wanted", rough(completed.max_error()));
             return Ok(completed.settle_backend(Backend::Reference, &reason)?);
         }
         if let Some(conflict) = completed.scene.why_not_on_gpu() {

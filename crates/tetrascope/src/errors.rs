@@ -5,7 +5,7 @@ use tetrascope_estimate::{
 };
 use tetrascope_mesh::CellId;
 use tetrascope_order::{CycleRemedy, Guarantee, OrderMethod};
-use tetrascope_scene::{Backend, Completed, Interpolation, Plan, Progress, Rendered, short};
+use tetrascope_scene::{Backend, Completed, Interpolation, Plan, Progress, Rendered, rough};
 use tetrascope_view::LinearImage;
 
 use crate::threads::on_threads;
@@ -53,8 +53,8 @@ impl VolumeField<'_> {
             completed.warnings.push(format!(
                 "an error of {} is wanted, and a picture in 32 bits may be off by {} in single pixels; quality.backend = \"reference\" is within \
                  1e-7, slowly",
-                short(wanted),
-                short(ROUNDING_OF_32_BITS)
+                rough(wanted),
+                rough(ROUNDING_OF_32_BITS)
             ));
         }
         if !completed.leaves_integration_open() || backend == Some(Backend::Reference) {

@@ -74,7 +74,8 @@ pub use tetrascope_scene::{
     Interpolation, IsosurfaceMethod, IsosurfaceMethodName, IsosurfacePlan, IsosurfaceSection, LengthAxisName,
     LightDirection, LightName, LightSection, Lighting, MapWork, MeshFacts, Mixing, OrderReport, Plan, PlanError,
     Progress, ProjectionName, Rendered, Scene, SceneError, SceneFile, SceneSyntaxError, Shading, Silent, Stage,
-    TableWork, TargetBits, Work, WorkBuffer, explain_blank, foresee_blank, select_field, short, summarize_arrays,
+    TableWork, TargetBits, Work, WorkBuffer, explain_blank, foresee_blank, rough, select_field, short,
+    summarize_arrays,
 };
 pub use tetrascope_view::{Camera, ErrorFigures, LinearImage, PixelDifference, Projection, View, ViewError};
 
