@@ -134,7 +134,10 @@ fn blank_pictures_say_why_before_and_after() {
             &["--extinction", "0:0.3", "--eye", "0.5,0.5,40", "--target", "0.5,0.5,0", "--fov", "2"],
             &["too small", "under one gray level"],
         ),
-        (&["--field", "flat", "--extinction", "3:0; 4:1"], &["the field is 2.5 everywhere", "from 3 to 4"]),
+        (
+            &["--field", "flat", "--extinction", "3:0; 4:1", "--color", "3:1,1,1"],
+            &["the field is 2.5 everywhere", "from 3 to 4"],
+        ),
         (&["--model", "emission", "--color", "0:0,0,0"], &["adds per length", "under one gray level"]),
         (&["--eye", "9,9,9", "--target", "50,50,50"], &["does not see the mesh", "behind it"]),
         (&["--extinction", "0:0", "--isosurface", "9"], &["meets no isosurface", "the extinction is 0"]),
@@ -151,7 +154,7 @@ fn blank_pictures_say_why_before_and_after() {
     for options in [
         &[][..],
         &["--field", "flat"],
-        &["--extinction", "0:0.3", "--eye", "40,0.5,0", "--target", "0.5,0.5,0", "--fov", "4"],
+        &["--extinction", "0:0.3", "--eye", "40,0.5,0.005", "--target", "0.5,0.5,0.005", "--fov", "0.02"],
         &["--extinction", "0:0", "--isosurface", "2"],
     ] {
         for command in ["render", "plan"] {
