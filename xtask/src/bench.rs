@@ -5,9 +5,10 @@
 //! early and nothing is left out: every cell is at least a little opaque in the smooth transfer function.
 //!
 //! The settings are all ways to integrate, with `--interpolations` all ways to find a segment at a pixel, or with `--isosurfaces` all ways to
-//! draw isosurfaces, beside none. With `--orders` visibility
-//! orders are measured alone, without a picture; with `--backend gpu` a graphics card, stage by stage.
+//! draw isosurfaces, beside none. With `--orders` visibility orders are measured alone, without a picture; with `--effects` what effects cost
+//! that are switched off; with `--backend gpu` a graphics card, stage by stage.
 
+mod effects;
 mod gpu;
 mod orders;
 
@@ -57,8 +58,11 @@ pub(crate) struct Args {
     /// Visibility orders alone; without a mesh on built-in ones of 10⁴ to 5·10⁶ tetrahedra.
     #[arg(long, conflicts_with_all = ["isosurfaces", "interpolations"])]
     orders: bool,
+    /// Effects that are switched off, beside scenes that never had them, counted and timed; by the order that `auto` takes.
+    #[arg(long, conflicts_with_all = ["isosurfaces", "orders"])]
+    effects: bool,
     /// Who draws: cpu or gpu. With gpu without a mesh on built-in ones of 1, 4 and 16 million tetrahedra.
-    #[arg(long, default_value = "cpu", conflicts_with_all = ["isosurfaces", "interpolations", "orders"])]
+    #[arg(long, default_value = "cpu", conflicts_with_all = ["isosurfaces", "interpolations", "orders", "effects"])]
     backend: Backend,
     /// The adapter of --backend gpu: a part of its name, or its number in `tetrascope devices`.
     #[arg(long)]
@@ -120,6 +124,10 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
         Some(volume) => volume,
         None => Volume::from_dataset(tetrascope::mesh::rings_sample(33), "built-in sample")?,
     };
+    if args.effects {
+        let run = || effects::run(&volume, args.field.as_deref(), &args.only, args.size, args.frames);
+        return Ok(pool.install(|| run().map_err(|e| e.to_string()))?);
+    }
     let field = volume.field(args.field.as_deref())?;
     let diagonal = field.facts.diagonal();
     let camera = |degrees: f64| {

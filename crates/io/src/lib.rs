@@ -1,4 +1,4 @@
-//! Readers for meshes, and readers and writers for pictures.
+//! Readers for meshes and writers for pictures.
 //!
 //! [`read_mesh`] finds the reader by the file's content, then by its extension, and gives a [`Loaded`]: the dataset as the
 //! file has it and what was odd about it. Memory is never reserved from a count that the file merely declares.

@@ -67,7 +67,7 @@ impl Scene {
     /// a table's size has numbers that make no picture, and for methods that do not go together.
     pub fn plan(&self) -> Result<Plan, SceneError> {
         let view = View::new(&self.camera, self.width, self.height)?;
-        let transfer = TransferFunction::new(&self.color, &self.extinction)?;
+        let transfer = self.transfer()?;
         if !self.background.iter().all(|c| c.is_finite() && *c >= 0.0) {
             let value = format!("{:?}", self.background);
             return Err(SceneError::value("image.background", value, "give three finite numbers, zero or more"));
@@ -101,6 +101,18 @@ impl Scene {
             decisions,
         };
         Ok(self.say_what_light_needs(plan))
+    }
+
+    /// The transfer function, checked; without the half that the optical model ignores, whose control points would cut cells into pieces.
+    fn transfer(&self) -> Result<TransferFunction, SceneError> {
+        let all = TransferFunction::new(&self.color, &self.extinction)?;
+        Ok(if !self.model.needs_extinction() {
+            TransferFunction::new(&self.color, &[[0.0, 0.0]])?
+        } else if !self.model.needs_emission() {
+            TransferFunction::new(&[[0.0, 0.0, 0.0, 0.0]], &self.extinction)?
+        } else {
+            all
+        })
     }
 
     /// The isosurfaces that hide anything, checked.

@@ -177,7 +177,7 @@ fn integration(plan: &Plan, work: &Work) -> Effect {
     let cost = if work.makes_fans {
         format!("a fan of triangles for each of at most {} cells", work.drawn_at_most())
     } else {
-        format!("about {} segments", short(work.fragments.estimate.round()))
+        format!("about {:.0} segments", work.fragments.estimate)
     };
     Effect {
         name: "integration",
@@ -266,13 +266,13 @@ fn perspective(plan: &Plan) -> Effect {
 fn fragments_of(work: &Work) -> String {
     let fragments = work.fragments;
     let spread = if fragments.standard_error > 0.0 {
-        format!(", give or take {}", short(2.0 * fragments.standard_error.round()))
+        format!(", give or take {:.0}", 2.0 * fragments.standard_error)
     } else {
         String::new()
     };
     format!(
-        "about {}{spread}, {} a pixel: an estimate from the outlines of {} cells; fewer where pixels become opaque",
-        short(fragments.estimate.round()),
+        "about {:.0}{spread}, {} a pixel: an estimate from the outlines of {} cells; fewer where pixels become opaque",
+        fragments.estimate,
         short(fragments.estimate / work.pixels.max(1) as f64),
         fragments.sampled
     )
