@@ -38,7 +38,7 @@ mod vtk;
 pub use error::IoError;
 pub use heights::{read_heights, write_heights};
 pub use open::{read_mesh, readers};
-pub use picture::{read_exr, write_exr, write_image, write_png};
+pub use picture::{encode_png, make_folder, read_exr, write_bytes, write_exr, write_image, write_png};
 pub use read::{Loaded, MeshReader, Source};
 
 /// Compiles the example of the README.

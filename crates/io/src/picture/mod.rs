@@ -9,8 +9,9 @@ use std::path::Path;
 use tetrascope_view::LinearImage;
 
 pub use exr_file::{read_exr, write_exr};
-pub use png_file::write_png;
+pub use png_file::{encode_png, write_png};
 pub(crate) use whole_file::write_whole;
+pub use whole_file::{make_folder, write_bytes};
 
 use crate::{IoError, read::extension};
 
