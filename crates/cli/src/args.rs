@@ -170,7 +170,7 @@ pub(crate) struct StudyArgs {
     /// Array to show: a name, or NAME:0, NAME:x, NAME:mag of a vector [default: the first scalar point array]
     #[arg(long, value_name = "NAME")]
     pub(crate) field: Option<String>,
-    /// Fewer settings, 3 frames each, and a picture of at most 160 pixels a side
+    /// Fewer settings, 5 frames each, and a picture of at most 160 pixels a side
     #[arg(long)]
     pub(crate) quick: bool,
 
@@ -180,7 +180,7 @@ pub(crate) struct StudyArgs {
     /// Pixels: one side of a square, or WIDTHxHEIGHT [default: 512]
     #[arg(long, value_name = "SIZE", value_parser = size, help_heading = "Picture")]
     pub(crate) size: Option<(u32, u32)>,
-    /// Frames of each setting that are timed; an even number takes one more [default: 9, or 3 with --quick]
+    /// Frames of each setting that are timed; an even number takes one more [default: 9, or 5 with --quick]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=999), help_heading = "Method")]
     pub(crate) frames: Option<u16>,
     /// Part of the name of a GPU's adapter, or its number as `tetrascope devices` lists it; software is studied only if it is asked for

@@ -20,7 +20,7 @@ pub struct Options {
     pub name: String,
     /// Few settings, few frames and a small picture, for an answer in seconds.
     pub is_quick: bool,
-    /// Frames of each setting that are timed; made odd, so that the middle one is the scene's own view. `None` takes 9, or 3 in a quick study.
+    /// Frames of each setting that are timed; made odd, so that the middle one is the scene's own view. `None` takes 9, or 5 in a quick study.
     pub frames: Option<u32>,
     /// How far the eye turns about the mesh from the first frame to the last, degrees.
     pub turn_degrees: f64,
@@ -55,7 +55,7 @@ impl Options {
 
     /// How many frames of each setting are timed: an odd number.
     pub fn frame_count(&self) -> usize {
-        let asked = self.frames.unwrap_or(if self.is_quick { 3 } else { 9 });
+        let asked = self.frames.unwrap_or(if self.is_quick { 5 } else { 9 });
         asked.max(1) as usize | 1
     }
 }

@@ -172,7 +172,8 @@ impl Methods {
 
     /// In words; what is as usual, or as in `start` where nothing else is possible, is not said.
     pub(crate) fn name(&self, start: &Self) -> String {
-        let mut parts = vec![integration_name(self.integration, self.tables), order_name(self.order)];
+        let order = if self.order == OrderMethod::None { "unordered".to_owned() } else { order_name(self.order) };
+        let mut parts = vec![integration_name(self.integration, self.tables), order];
         match self.cycles {
             Some(cycles) if start.cycles.is_some_and(|usual| usual != cycles) => parts.push(format!("rings: {cycles}")),
             _ => {}
@@ -213,7 +214,6 @@ pub(crate) fn order_name(order: OrderMethod) -> String {
     match order {
         OrderMethod::KBuffer { window } => format!("{order} {window}"),
         OrderMethod::Bucket { slabs } => format!("{order} {slabs}"),
-        OrderMethod::None => "unordered".to_owned(),
         _ => order.to_string(),
     }
 }

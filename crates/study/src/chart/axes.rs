@@ -155,7 +155,11 @@ impl Axes {
                 let x = self.x_of_log(log);
                 let _ = write!(svg, "<path class=\"grid\" d=\"M{x:.1} {TOP}V{BOTTOM}\"/>");
                 // Over many decades the numbers between would run into one another.
-                let is_named = mantissa == 1 || (high - low < 3.0 && matches!(mantissa, 2 | 5));
+                let is_named = match high - low {
+                    decades if decades < 1.0 => mantissa < 7 || mantissa == 8,
+                    decades if decades < 3.0 => matches!(mantissa, 1 | 2 | 5),
+                    _ => mantissa == 1,
+                };
                 if is_named {
                     let text = if ms >= 0.999 { format!("{ms:.0}") } else { format!("{}", (ms * 1e6).round() / 1e6) };
                     let y = BOTTOM + 18.0;

@@ -6,9 +6,13 @@ use super::axes::{Axes, LEFT};
 use crate::text::escaped;
 use crate::{Figure, Study};
 
-/// About the width of a text of the chart: a letter of a sans-serif font at 12 units.
+/// About the width of a text of the chart: a letter of a wide sans-serif font at 12 units, and of a bold one.
 pub(super) fn width(text: &str) -> f64 {
-    text.chars().count() as f64 * 6.1
+    text.chars().count() as f64 * 6.7
+}
+
+fn bold_width(text: &str) -> f64 {
+    text.chars().count() as f64 * 7.2
 }
 
 /// Left, top, right, bottom.
@@ -28,20 +32,33 @@ pub(super) fn labels(study: &Study, figure: Figure, axes: &Axes) -> String {
     let mut svg = String::new();
     for outcome in study.outcomes.iter().filter(|outcome| outcome.is_on_frontier(figure)) {
         let (x, y) = axes.place(outcome, figure);
-        let wide = width(&outcome.setting.name);
-        let starts = [x + 10.0, x - 10.0 - wide, x - wide / 2.0];
-        let heights = [y + 4.0, y - 10.0, y + 19.0, y - 24.0, y + 33.0];
-        let places = heights.iter().flat_map(|&base| starts.iter().map(move |&start| (start, base)));
-        let area = |(start, base): (f64, f64)| [start - 2.0, base - 11.0, start + wide + 2.0, base + 3.0];
-        let is_free = |place: &(f64, f64)| {
+        // The mark has the place already.
+        let place = format!(", {}", outcome.setting.place);
+        let name = outcome.setting.name.strip_suffix(&place).unwrap_or(&outcome.setting.name);
+        let wide = bold_width(name);
+        // To the lower left of the frontier there is no point. A text is bound to the end that is near its point, as its width is a guess.
+        let ends = [(x - 8.0, "end"), (x + 8.0, "start"), (x, "middle")];
+        let heights = [y + 15.0, y - 9.0, y + 4.0, y + 30.0, y - 24.0, y + 45.0];
+        let places = heights.iter().flat_map(|&base| ends.iter().map(move |&end| (end, base)));
+        let area = |((end, anchor), base): ((f64, &str), f64)| {
+            let left = match anchor {
+                "end" => end - wide,
+                "start" => end,
+                _ => end - wide / 2.0,
+            };
+            [left, base - 11.0, left + wide, base + 3.0]
+        };
+        let is_free = |place: &((f64, &str), f64)| {
             let area = area(*place);
             let is_inside = area[0] > LEFT && area[2] < axes.right() && area[1] > axes.top() && area[3] < axes.bottom();
             is_inside && !taken.iter().any(|other| overlap(&area, other))
         };
-        let Some((start, base)) = places.into_iter().find(is_free) else { continue };
-        taken.push(area((start, base)));
-        let name = escaped(&outcome.setting.name);
-        let _ = write!(svg, "<text class=\"label\" x=\"{start:.1}\" y=\"{base:.1}\">{name}</text>");
+        let Some(found) = places.into_iter().find(is_free) else { continue };
+        taken.push(area(found));
+        let ((end, anchor), base) = found;
+        let text = escaped(name);
+        let _ =
+            write!(svg, "<text class=\"label\" x=\"{end:.1}\" y=\"{base:.1}\" text-anchor=\"{anchor}\">{text}</text>");
     }
     svg
 }

@@ -133,10 +133,10 @@ fn legend(study: &Study) -> String {
     let mut entry = |class: &str, mark: &str, text: &str, y: f64, x: &mut f64| {
         let _ = write!(
             svg,
-            "<g class=\"key {class}\" transform=\"translate({:.1} {y:.1})\">{mark}<text x=\"10\" y=\"4\">{text}</text></g>",
+            "<g class=\"key {class}\" transform=\"translate({:.1} {y:.1})\">{mark}<text x=\"12\" y=\"4\">{text}</text></g>",
             *x + 6.0
         );
-        *x += 34.0 + labels::width(text);
+        *x += 32.0 + labels::width(text);
     };
     for axis in Axis::ALL {
         if study.outcomes.iter().any(|outcome| outcome.setting.axis == axis) {
