@@ -32,6 +32,8 @@ pub struct Options {
     pub kept_side: u32,
     /// What the scene itself asks for, where that is not the plan that the study begins with; it is studied too, and marked.
     pub scene_plan: Option<Plan>,
+    /// Which of the settings that are worth a look are drawn.
+    pub keeps: fn(&Setting) -> bool,
 }
 
 impl Default for Options {
@@ -45,6 +47,7 @@ impl Default for Options {
             uses_gpu: true,
             kept_side: 256,
             scene_plan: None,
+            keeps: |_| true,
         }
     }
 }
@@ -171,7 +174,10 @@ fn list(
     let has_heights = !start.commutes() && renderer.visibility().quick_certificate(renderer.cells()).is_exact();
     let places: Vec<Place> = opened.iter().map(|(place, _)| *place).collect();
     let own = options.scene_plan.as_ref();
-    Ok(settings(start, Scope { places: &places, is_quick: options.is_quick, has_heights, own }))
+    let scope = Scope { places: &places, is_quick: options.is_quick, has_heights, own };
+    let (mut settings, left_out) = settings(start, scope);
+    settings.retain(options.keeps);
+    Ok((settings, left_out))
 }
 
 /// The plan that the study begins with: on the CPU, which is everywhere.
