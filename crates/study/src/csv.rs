@@ -41,11 +41,9 @@ const COLUMNS: [&str; 31] = [
     "device",
 ];
 
-/// One line a setting, in the order of the study, behind one of names. Fields by [RFC 4180]: commas between, quotes where they are needed.
+/// One line a setting, in the order of the study, behind one of names. Fields as RFC 4180 has them: commas between, quotes where they are needed.
 ///
 /// What a setting does not have is empty; errors that are no number are `inf`.
-///
-/// [RFC 4180]: https://www.rfc-editor.org/rfc/rfc4180
 pub fn csv(study: &Study) -> String {
     let mut text = COLUMNS.join(",");
     text.push_str("\r\n");

@@ -18,8 +18,8 @@ pub struct Outcome {
     pub errors: ErrorFigures,
     /// Wall time of its frames, the picture in the host's memory included.
     pub frame: Spread,
-    /// By how much its first frame took longer than the others: tables, maps, programs of a GPU, what an order learns of the mesh. What several settings
-    /// share is paid by the first of them.
+    /// By how much its first frame took longer than the others, and at least what that spent on tables, maps and preparing: programs of a GPU and what an
+    /// order learns of the mesh are in it. What several settings share is paid by the first of them.
     pub set_up: Duration,
     /// Mean time of each stage of a frame, as the device measured it where it has a clock, else as the host did.
     pub stages: Vec<(String, Duration)>,

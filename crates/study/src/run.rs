@@ -4,7 +4,7 @@ use std::time::{Duration, Instant};
 
 use tetrascope::{
     AdapterDescription, Backend, ErrorFigures, Integration, Interpolation, LinearImage, MeshFacts, OrderMethod,
-    PixelDifference, Plan, Rendered, Silent, TargetBits, VolumeField, adapter_of_auto, adapters,
+    PixelDifference, Plan, Rendered, Silent, Stage, TargetBits, VolumeField, adapter_of_auto, adapters,
 };
 
 use crate::measure::{add_stages, memory_of, stages_of};
@@ -244,7 +244,9 @@ struct Runs<'a> {
 /// What is known so far of a setting.
 struct Run {
     setting: Setting,
+    /// Of the first frame: all of it, and what the host spent on what is kept for others.
     first: Duration,
+    made: Duration,
     times: Vec<Duration>,
     stages: Vec<(String, Duration)>,
     /// Of the middle frame.
@@ -270,9 +272,9 @@ impl Runs<'_> {
             self.meter.frames(&setting.name, done, total);
             let begin = Instant::now();
             match self.draw(&setting, 0.0) {
-                Ok(_) => {
-                    let (first, times, stages) = (begin.elapsed(), Vec::new(), Vec::new());
-                    runs.push(Run { setting, first, times, stages, outcome: None });
+                Ok(rendered) => {
+                    let (first, made) = (begin.elapsed(), made_in(&rendered));
+                    runs.push(Run { setting, first, made, times: Vec::new(), stages: Vec::new(), outcome: None });
                 }
                 Err(error) => left_out.push(LeftOut { name: setting.name, reason: error.to_string() }),
             }
@@ -346,9 +348,15 @@ impl Run {
         let frame = Spread::of(&self.times);
         let frames = self.times.len().max(1) as u32;
         let stages = self.stages.into_iter().map(|(stage, sum)| (stage, sum / frames)).collect();
-        let set_up = self.first.saturating_sub(frame.median);
+        let set_up = self.first.saturating_sub(frame.median).max(self.made);
         self.outcome.map(|outcome| Outcome { frame, set_up, stages, ..outcome })
     }
+}
+
+/// Time in which a frame made what the next ones find ready.
+fn made_in(rendered: &Rendered) -> Duration {
+    let is_kept = |stage: &Stage| matches!(stage, Stage::Prepare | Stage::Tabulate);
+    rendered.timings.iter().filter(|(stage, _)| is_kept(stage)).map(|(_, time)| *time).sum()
 }
 
 fn with_frontiers(mut outcomes: Vec<Outcome>) -> Vec<Outcome> {
