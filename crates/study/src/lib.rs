@@ -37,6 +37,7 @@ mod json;
 mod measure;
 mod page;
 mod progress;
+mod rounds;
 mod run;
 mod setting;
 mod settings;

@@ -1,17 +1,17 @@
-//! Drawing every setting again and again, and comparing it with the reference.
+//! A study from beginning to end: the reference, the places, the settings, the frontier.
 
 use std::time::{Duration, Instant};
 
 use tetrascope::{
-    AdapterDescription, Backend, ErrorFigures, Integration, Interpolation, LinearImage, MeshFacts, OrderMethod,
-    PixelDifference, Plan, Rendered, Silent, Stage, TargetBits, VolumeField, adapter_of_auto, adapters,
+    AdapterDescription, Backend, Integration, Interpolation, LinearImage, MeshFacts, OrderMethod, Plan, Silent,
+    TargetBits, VolumeField, adapter_of_auto, adapters,
 };
 
-use crate::measure::{add_stages, memory_of, stages_of};
 use crate::progress::Meter;
+use crate::rounds::Runs;
 use crate::settings::{Scope, settings};
-use crate::turn::{Pooling, angles, reduced, shrunk, turned};
-use crate::{Error, Figure, LeftOut, Outcome, Place, Setting, Spread, StudyProgress, frontier};
+use crate::turn::{Pooling, angles, reduced, shrunk};
+use crate::{Error, Figure, LeftOut, Outcome, Place, Setting, StudyProgress, frontier};
 
 /// How a scene is studied.
 #[derive(Clone, Debug)]
@@ -127,7 +127,7 @@ impl Study {
         left_out.extend(not_there);
 
         let runs = Runs { field, angles: angles(options.frame_count(), options.turn_degrees), meter };
-        let measured = runs.measure(settings, &exact, options, &mut left_out)?;
+        let measured = runs.measure(settings, &exact, options, &mut left_out);
         if measured.is_empty() {
             return Err(Error::NothingToCompare { left_out });
         }
@@ -232,131 +232,6 @@ fn open_places(
         }
     }
     opened
-}
-
-/// Settings taking turns.
-struct Runs<'a> {
-    field: &'a VolumeField<'a>,
-    angles: Vec<f64>,
-    meter: Meter<'a>,
-}
-
-/// What is known so far of a setting.
-struct Run {
-    setting: Setting,
-    /// Of the first frame: all of it, and what the host spent on what is kept for others.
-    first: Duration,
-    made: Duration,
-    times: Vec<Duration>,
-    stages: Vec<(String, Duration)>,
-    /// Of the middle frame.
-    outcome: Option<Outcome>,
-}
-
-impl Runs<'_> {
-    fn measure(
-        &self,
-        settings: Vec<Setting>,
-        exact: &LinearImage,
-        options: &Options,
-        left_out: &mut Vec<LeftOut>,
-    ) -> Result<Vec<Outcome>, Error> {
-        let rounds = self.angles.len().min(3);
-        let per_visit = self.angles.len().div_ceil(rounds);
-        let visits: Vec<&[f64]> = self.angles.chunks(per_visit).collect();
-        let total = (settings.len() * (1 + visits.len() + self.angles.len())) as u64;
-        let mut done = 0;
-        let mut runs = Vec::new();
-        for setting in settings {
-            done += 1;
-            self.meter.frames(&setting.name, done, total);
-            let begin = Instant::now();
-            match self.draw(&setting, 0.0) {
-                Ok(rendered) => {
-                    let (first, made) = (begin.elapsed(), made_in(&rendered));
-                    runs.push(Run { setting, first, made, times: Vec::new(), stages: Vec::new(), outcome: None });
-                }
-                Err(error) => left_out.push(LeftOut { name: setting.name, reason: error.to_string() }),
-            }
-        }
-        for visit in visits {
-            let mut kept = Vec::new();
-            for mut run in runs {
-                done += 1 + visit.len() as u64;
-                self.meter.frames(&run.setting.name, done, total);
-                match self.visit(&mut run, visit, exact, options) {
-                    Ok(()) => kept.push(run),
-                    Err(error) => left_out.push(LeftOut { name: run.setting.name, reason: error.to_string() }),
-                }
-            }
-            runs = kept;
-        }
-        self.meter.frames("done", total, total);
-        Ok(runs.into_iter().filter_map(Run::finish).collect())
-    }
-
-    /// One frame that is not timed, and then those that are.
-    fn visit(&self, run: &mut Run, angles: &[f64], exact: &LinearImage, options: &Options) -> Result<(), Error> {
-        // Between two frames of the turn: nothing that depends on the view is there already for one that is timed.
-        self.draw(&run.setting, angles[0] + 0.37)?;
-        for &angle in angles {
-            let begin = Instant::now();
-            let rendered = self.draw(&run.setting, angle)?;
-            run.times.push(begin.elapsed());
-            add_stages(&mut run.stages, stages_of(&rendered));
-            if angle == 0.0 {
-                run.outcome = Some(self.outcome(&run.setting, rendered, exact, options)?);
-            }
-        }
-        Ok(())
-    }
-
-    fn draw(&self, setting: &Setting, angle: f64) -> Result<Rendered, tetrascope::Error> {
-        let center = self.field.facts.center().to_array();
-        let view = if angle == 0.0 { setting.plan.view } else { turned(&setting.plan.view, center, angle) };
-        self.field.render(&Plan { view, ..setting.plan.clone() }, &Silent)
-    }
-
-    fn outcome(
-        &self,
-        setting: &Setting,
-        rendered: Rendered,
-        exact: &LinearImage,
-        options: &Options,
-    ) -> Result<Outcome, Error> {
-        let errors = ErrorFigures::between(&rendered.image, exact).ok_or(Error::NoPixel)?;
-        let map = PixelDifference::between(&rendered.image, exact).map(exact.width()).ok_or(Error::NoPixel)?;
-        Ok(Outcome {
-            setting: setting.clone(),
-            errors,
-            frame: Spread::default(),
-            set_up: Duration::ZERO,
-            stages: Vec::new(),
-            memory: memory_of(self.field, &setting.plan, &rendered),
-            order: self.field.order_worth(&setting.plan, &rendered).summary,
-            device: rendered.device.map(|device| format!("{} ({}, {})", device.name, device.api, device.driver)),
-            counts: rendered.counts,
-            picture: reduced(&rendered.image, options.kept_side, Pooling::Mean),
-            difference: reduced(&map, options.kept_side, Pooling::Largest),
-            on_frontier: [false; 3],
-        })
-    }
-}
-
-impl Run {
-    fn finish(self) -> Option<Outcome> {
-        let frame = Spread::of(&self.times);
-        let frames = self.times.len().max(1) as u32;
-        let stages = self.stages.into_iter().map(|(stage, sum)| (stage, sum / frames)).collect();
-        let set_up = self.first.saturating_sub(frame.median).max(self.made);
-        self.outcome.map(|outcome| Outcome { frame, set_up, stages, ..outcome })
-    }
-}
-
-/// Time in which a frame made what the next ones find ready.
-fn made_in(rendered: &Rendered) -> Duration {
-    let is_kept = |stage: &Stage| matches!(stage, Stage::Prepare | Stage::Tabulate);
-    rendered.timings.iter().filter(|(stage, _)| is_kept(stage)).map(|(_, time)| *time).sum()
 }
 
 fn with_frontiers(mut outcomes: Vec<Outcome>) -> Vec<Outcome> {
