@@ -197,3 +197,28 @@ proptest::proptest! {
         let _ = read_exr(&path);
     }
 }
+
+#[test]
+fn png_in_memory_is_the_file() {
+    let folder = tempfile::tempdir().unwrap();
+    let (path, image) = (folder.path().join("picture.png"), gradient(13, 7));
+    write_png(&path, &image, [0.1, 0.2, 0.3]).unwrap();
+    assert_eq!(encode_png(&image, [0.1, 0.2, 0.3]).unwrap(), fs::read(&path).unwrap());
+    assert_eq!(encode_png(&LinearImage::transparent(0, 4), [0.0; 3]), None);
+}
+
+#[test]
+fn other_files_are_whole_too_and_folders_are_made() {
+    let folder = tempfile::tempdir().unwrap();
+    let deep = folder.path().join("a/b");
+    make_folder(&deep).unwrap();
+    make_folder(&deep).unwrap();
+    for text in ["first", "second"] {
+        write_bytes(&deep.join("table.csv"), text.as_bytes()).unwrap();
+        assert_eq!(fs::read_to_string(deep.join("table.csv")).unwrap(), text);
+    }
+    assert_eq!(names_in(&deep), ["table.csv"]);
+    let error = make_folder(&deep.join("table.csv/c")).unwrap_err().to_string();
+    assert!(error.contains("table.csv") && error.contains("the folder was not made"), "{error}");
+    assert!(write_bytes(&deep.join("none/table.csv"), b"x").is_err());
+}
