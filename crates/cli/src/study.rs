@@ -130,7 +130,7 @@ fn table(study: &Study) -> Vec<String> {
         lines.push("> what the scene asks for".to_owned());
     }
     lines.push(format!(
-        "settings    {}, {} frames each at {} x {}; the reference took {} ms",
+        "settings    {}, frames timed of each {}, at {} x {}; the reference took {} ms",
         study.outcomes.len(),
         study.frames,
         view.width,

@@ -10,12 +10,12 @@ use crate::{Figure, Outcome, Study};
 
 /// The whole chart, in units that a browser scales.
 pub(super) const WIDTH: f64 = 960.0;
-pub(super) const HEIGHT: f64 = 600.0;
+pub(super) const HEIGHT: f64 = 640.0;
 /// Where the plot begins.
 pub(super) const LEFT: f64 = 76.0;
-const RIGHT: f64 = WIDTH - 20.0;
+pub(super) const RIGHT: f64 = WIDTH - 20.0;
 const TOP: f64 = 22.0;
-const BOTTOM: f64 = HEIGHT - 100.0;
+const BOTTOM: f64 = HEIGHT - 140.0;
 
 /// From numbers to places.
 #[derive(Clone, Copy, Debug)]

@@ -128,22 +128,26 @@ fn mark(place: Place, radius: f64) -> String {
 /// What colors and shapes mean, of those that are there.
 fn legend(study: &Study) -> String {
     let mut svg = String::new();
-    let mut x = axes::LEFT;
-    let y = HEIGHT - 34.0;
-    let mut entry = |class: &str, mark: &str, text: &str, y: f64, x: &mut f64| {
+    // Room for four lines: what is of one kind may take two.
+    let mut at = (axes::LEFT, HEIGHT - 74.0);
+    let mut entry = |class: &str, mark: &str, text: &str, (x, y): &mut (f64, f64)| {
+        if *x + 18.0 + labels::width(text) > axes::RIGHT {
+            (*x, *y) = (axes::LEFT, *y + 20.0);
+        }
         let _ = write!(
             svg,
-            "<g class=\"key {class}\" transform=\"translate({:.1} {y:.1})\">{mark}<text x=\"12\" y=\"4\">{text}</text></g>",
-            *x + 6.0
+            "<g class=\"key {class}\" transform=\"translate({:.1} {:.1})\">{mark}<text x=\"12\" y=\"4\">{text}</text></g>",
+            *x + 6.0,
+            *y
         );
         *x += 32.0 + labels::width(text);
     };
     for axis in Axis::ALL {
         if study.outcomes.iter().any(|outcome| outcome.setting.axis == axis) {
-            entry(axis.key(), &mark(Place::Cpu, 4.5), axis.label(), y, &mut x);
+            entry(axis.key(), &mark(Place::Cpu, 4.5), axis.label(), &mut at);
         }
     }
-    let (mut x, y) = (axes::LEFT, y + 20.0);
+    at = (axes::LEFT, at.1 + 20.0);
     let mut places: Vec<Place> = Vec::new();
     for outcome in &study.outcomes {
         if !places.contains(&outcome.setting.place) {
@@ -151,17 +155,11 @@ fn legend(study: &Study) -> String {
         }
     }
     for place in places {
-        entry("place", &mark(place, 4.5), &place.to_string(), y, &mut x);
+        entry("place", &mark(place, 4.5), &place.to_string(), &mut at);
     }
-    entry(
-        "line",
-        "<path class=\"frontier\" d=\"M-6 0H7\"/>",
-        "frontier: nothing else is faster and as right",
-        y,
-        &mut x,
-    );
+    entry("line", "<path class=\"frontier\" d=\"M-6 0H7\"/>", "frontier: nothing else is faster and as right", &mut at);
     if study.outcomes.iter().any(|outcome| outcome.setting.is_scene) {
-        entry("place", "<circle class=\"ring\" r=\"7\"/>", "what the scene asks for", y, &mut x);
+        entry("place", "<circle class=\"ring\" r=\"7\"/>", "what the scene asks for", &mut at);
     }
     svg
 }
