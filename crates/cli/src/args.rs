@@ -30,6 +30,7 @@ Examples:
   tetrascope info case.vtu                 what is in a file
   tetrascope devices                       which graphics cards there are
   tetrascope check case.vtu                which visibility orders are right for it
+  tetrascope study case.vtu                what accuracy costs in time
   tetrascope render case.vtu               draw it, with defaults that fit any scale
   tetrascope render scene.toml -o a.png    draw what a scene file says
   tetrascope plan scene.toml               what that would take, and why
@@ -51,6 +52,8 @@ pub(crate) enum Command {
     Plan(Box<PlanArgs>),
     /// Say how far two pictures are apart.
     Compare(CompareArgs),
+    /// Draw a scene with every method, and show what accuracy costs in time.
+    Study(Box<StudyArgs>),
 }
 
 const RENDER_EXAMPLES: &str = "\
@@ -148,6 +151,53 @@ pub(crate) struct CheckArgs {
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..), help_heading = "Method")]
     pub(crate) threads: Option<u16>,
     /// Report on standard output as one JSON object
+    #[arg(long, help_heading = "Report")]
+    pub(crate) json: bool,
+}
+
+const STUDY_EXAMPLES: &str = "\
+Examples:
+  tetrascope study case.toml --quick           an answer in seconds
+  tetrascope study case.toml -o case-study     then open case-study/study.html in a browser
+  tetrascope study grid.xyz solution.q --field Density --size 256
+  tetrascope study case.vtu --adapter 0        on software that poses as a graphics card, too
+
+Every setting is compared with the exact reference and timed over a small turn of the eye. A study is a measurement: leave the machine alone
+meanwhile. Exit codes: 0 good, 1 wrong input, 2 wrong usage. Files are written whole or not at all.";
+
+#[derive(Debug, Args)]
+#[command(after_help = STUDY_EXAMPLES)]
+pub(crate) struct StudyArgs {
+    /// A scene file (.toml, .json), a mesh file, or a PLOT3D grid and its solution; builtin:rings is a sample
+    #[arg(required = true, num_args = 1..=2, value_name = "INPUT")]
+    pub(crate) input: Vec<PathBuf>,
+    /// Folder for study.html, study.csv, study.json and study.svg; made if it is not there
+    #[arg(short, long, value_name = "DIR", default_value = "study")]
+    pub(crate) output: PathBuf,
+    /// Array to show: a name, or NAME:0, NAME:x, NAME:mag of a vector [default: the first scalar point array]
+    #[arg(long, value_name = "NAME")]
+    pub(crate) field: Option<String>,
+    /// Fewer settings, 5 frames each, and a picture of at most 160 pixels a side
+    #[arg(long)]
+    pub(crate) quick: bool,
+
+    #[command(flatten)]
+    pub(crate) camera: CameraArgs,
+
+    /// Pixels: one side of a square, or WIDTHxHEIGHT [default: 512]
+    #[arg(long, value_name = "SIZE", value_parser = size, help_heading = "Picture")]
+    pub(crate) size: Option<(u32, u32)>,
+    /// Frames of each setting that are timed; an even number takes one more [default: 9, or 5 with --quick]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=999), help_heading = "Method")]
+    pub(crate) frames: Option<u16>,
+    /// Part of the name of a GPU's adapter, or its number as `tetrascope devices` lists it; software is studied only if it is asked for
+    /// [default: a graphics card if there is one]
+    #[arg(long, value_name = "NAME", help_heading = "Method")]
+    pub(crate) adapter: Option<String>,
+    /// Number of threads [default: one a core]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..), help_heading = "Method")]
+    pub(crate) threads: Option<u16>,
+    /// Report on standard output as one JSON object: study.json, and the files written
     #[arg(long, help_heading = "Report")]
     pub(crate) json: bool,
 }

@@ -14,6 +14,7 @@ mod render;
 mod report;
 mod sample;
 mod scene_paths;
+mod study;
 
 use std::process::ExitCode;
 
@@ -28,6 +29,7 @@ const fn help_of(command: Option<&Command>) -> &'static str {
         Some(Command::Render(_)) => "tetrascope render --help",
         Some(Command::Info(_)) => "tetrascope info --help",
         Some(Command::Check(_)) => "tetrascope check --help",
+        Some(Command::Study(_)) => "tetrascope study --help",
         Some(Command::Devices(_)) => "tetrascope devices --help",
         Some(Command::Plan(_)) => "tetrascope plan --help",
         Some(Command::Compare(_)) => "tetrascope compare --help",
@@ -59,6 +61,7 @@ fn main() -> ExitCode {
         Some(Command::Render(args)) => render::run(args),
         Some(Command::Info(args)) => info::run(args),
         Some(Command::Check(args)) => check::run(args),
+        Some(Command::Study(args)) => study::run(args),
         Some(Command::Devices(args)) => devices::run(args),
         Some(Command::Plan(args)) => plan::run(args),
         Some(Command::Compare(args)) => compare::run(args),

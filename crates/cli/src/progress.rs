@@ -6,6 +6,7 @@ use std::time::Duration;
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use tetrascope::{Progress, Stage};
+use tetrascope_study::StudyProgress;
 
 /// A bar that shows one step at a time.
 #[derive(Debug)]
@@ -38,6 +39,23 @@ impl Bar {
     pub(crate) fn clear(&self) {
         self.bar.disable_steady_tick();
         self.bar.finish_and_clear();
+    }
+}
+
+impl StudyProgress for Bar {
+    fn report(&self, step: &str, done: u64, total: u64) {
+        if self.bar.is_hidden() {
+            return;
+        }
+        if self.bar.length() != Some(total) {
+            self.bar.disable_steady_tick();
+            if let Ok(style) = ProgressStyle::with_template("[{bar:40}] {percent:>3} % {eta:4} {msg}") {
+                self.bar.set_style(style.progress_chars("=> "));
+            }
+            self.bar.set_length(total);
+        }
+        self.bar.set_message(step.to_owned());
+        self.bar.set_position(done);
     }
 }
 

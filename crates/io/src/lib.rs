@@ -38,7 +38,10 @@ mod vtk;
 pub use error::IoError;
 pub use heights::{read_heights, write_heights};
 pub use open::{read_mesh, readers};
-pub use picture::{PictureFile, PngImage, read_exr, read_picture, read_png, write_exr, write_image, write_png};
+pub use picture::{
+    PictureFile, PngImage, encode_png, make_folder, read_exr, read_picture, read_png, write_bytes, write_exr,
+    write_image, write_png,
+};
 pub use read::{Loaded, MeshReader, Source};
 
 /// Compiles the example of the README.

@@ -149,7 +149,8 @@ pub struct Counts {
     pub with_effects: Option<u64>,
     /// Fragments that light fell on, those in cells that a lit surface may cut included. `None` where that is not counted.
     pub lit: Option<u64>,
-    /// Drawn cells that were made fans of triangles for the integration that is defined on them; without it 0.
+    /// Drawn cells that were made fans of triangles, for the integration that is defined on them or for an interpolation that starts
+    /// from them; without these 0.
     pub fans: u64,
 }
 

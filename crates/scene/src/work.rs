@@ -8,7 +8,9 @@ use tetrascope_order::{CycleRemedy, PixelSort};
 
 pub use fragments::Fragments;
 
-use crate::{Backend, BufferRole, Counts, Gradients, IsosurfaceMethod, Mixing, Plan, Rendered, Shown, Stage};
+use crate::{
+    Backend, BufferRole, Counts, Gradients, Interpolation, IsosurfaceMethod, Mixing, Plan, Rendered, Shown, Stage,
+};
 
 /// What a plan asks of its back end on a mesh.
 ///
@@ -198,7 +200,7 @@ impl Work {
             surfaces: surfaces.as_slice().len() as u64,
             gradients: plan.gradients(),
             lights_volume: plan.lighting.is_some_and(|lighting| lighting.volume),
-            makes_fans: plan.integration.needs_fan(),
+            makes_fans: !is_reference && (plan.integration.needs_fan() || plan.interpolation != Interpolation::Exact),
             fragments,
             stages: Vec::new(),
             buffers: Vec::new(),

@@ -345,7 +345,11 @@ impl CpuRenderer {
             cell_gradients: Some(sum(&|r| r.gradients.len() + r.flat_gradients.len())),
             with_effects: Some(sum(&|r| r.effects.len())),
             lit: Some(lit.into_inner()),
-            fans: sum(&|r| r.fans.iter().flatten().count()),
+            fans: sum(&|r| {
+                r.fans.iter().flatten().count()
+                    + r.perspective.iter().flatten().count()
+                    + r.screen.iter().flatten().count()
+            }),
         };
         *self.scratch.lock().unwrap_or_else(PoisonError::into_inner) = Some(scratch);
         let guarantee = match plan.order.pixel_sort() {

@@ -10,9 +10,10 @@ use std::path::Path;
 use tetrascope_view::LinearImage;
 
 pub use exr_file::{read_exr, write_exr};
-pub use png_file::{PngImage, read_png, write_png};
+pub use png_file::{PngImage, encode_png, read_png, write_png};
 pub use read::{PictureFile, read_picture};
 pub(crate) use whole_file::write_whole;
+pub use whole_file::{make_folder, write_bytes};
 
 use crate::{IoError, read::extension};
 

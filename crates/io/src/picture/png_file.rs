@@ -46,6 +46,13 @@ pub fn write_png(path: &Path, image: &LinearImage, background: [f32; 3]) -> Resu
     write_whole(path, &bytes)
 }
 
+/// The bytes that [`write_png`] writes, for a picture that goes into something else; `None` for a picture without pixels.
+///
+/// `background` is linear RGB.
+pub fn encode_png(image: &LinearImage, background: [f32; 3]) -> Option<Vec<u8>> {
+    encode(image, background).ok()
+}
+
 fn encode(image: &LinearImage, background: [f32; 3]) -> Result<Vec<u8>, png::EncodingError> {
     let mut bytes = Vec::new();
     let mut encoder = png::Encoder::new(&mut bytes, image.width(), image.height());

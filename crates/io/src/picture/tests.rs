@@ -199,7 +199,7 @@ proptest::proptest! {
 }
 
 /// A PNG of that kind, with what else it needs.
-fn encode_png(
+fn png_of(
     size: [u32; 2],
     color: png::ColorType,
     depth: png::BitDepth,
@@ -231,23 +231,23 @@ fn png_of_every_kind_is_read() {
         assert_eq!(read_picture(&path).unwrap(), PictureFile::Png(found));
     };
     let (one, full) = (257, 65535);
-    check(encode_png([2, 1], Color::Grayscale, Bits::Eight, None, &[0, 1]), &[[0, 0, 0, full], [one, one, one, full]]);
-    check(encode_png([2, 1], Color::Grayscale, Bits::One, None, &[0b0100_0000]), &[[0, 0, 0, full], [full; 4]]);
+    check(png_of([2, 1], Color::Grayscale, Bits::Eight, None, &[0, 1]), &[[0, 0, 0, full], [one, one, one, full]]);
+    check(png_of([2, 1], Color::Grayscale, Bits::One, None, &[0b0100_0000]), &[[0, 0, 0, full], [full; 4]]);
     check(
-        encode_png([2, 1], Color::Rgb, Bits::Eight, None, &[1, 2, 3, 4, 5, 255]),
+        png_of([2, 1], Color::Rgb, Bits::Eight, None, &[1, 2, 3, 4, 5, 255]),
         &[[one, 2 * one, 3 * one, full], [4 * one, 5 * one, full, full]],
     );
     check(
-        encode_png([2, 1], Color::GrayscaleAlpha, Bits::Eight, None, &[1, 2, 3, 4]),
+        png_of([2, 1], Color::GrayscaleAlpha, Bits::Eight, None, &[1, 2, 3, 4]),
         &[[one, one, one, 2 * one], [3 * one, 3 * one, 3 * one, 4 * one]],
     );
     check(
-        encode_png([2, 1], Color::Rgba, Bits::Sixteen, None, &[1, 2, 3, 4, 5, 6, 7, 8, 0, 0, 0, 1, 0, 2, 255, 255]),
+        png_of([2, 1], Color::Rgba, Bits::Sixteen, None, &[1, 2, 3, 4, 5, 6, 7, 8, 0, 0, 0, 1, 0, 2, 255, 255]),
         &[[0x0102, 0x0304, 0x0506, 0x0708], [0, 1, 2, full]],
     );
     let palette = Some([&[9, 8, 7, 1, 2, 3][..], &[255, 16][..]]);
     check(
-        encode_png([2, 1], Color::Indexed, Bits::Eight, palette, &[1, 0]),
+        png_of([2, 1], Color::Indexed, Bits::Eight, palette, &[1, 0]),
         &[[one, 2 * one, 3 * one, 16 * one], [9 * one, 8 * one, 7 * one, full]],
     );
 }
@@ -307,4 +307,29 @@ fn pictures_of_other_kinds_are_refused() {
     write_exr(&folder.path().join("picture.exr"), &gradient(4, 4)).unwrap();
     fs::rename(folder.path().join("picture.exr"), &path).unwrap();
     assert_eq!(read_picture(&path).unwrap(), PictureFile::Exr(gradient(4, 4)));
+}
+
+#[test]
+fn png_in_memory_is_the_file() {
+    let folder = tempfile::tempdir().unwrap();
+    let (path, image) = (folder.path().join("picture.png"), gradient(13, 7));
+    write_png(&path, &image, [0.1, 0.2, 0.3]).unwrap();
+    assert_eq!(encode_png(&image, [0.1, 0.2, 0.3]).unwrap(), fs::read(&path).unwrap());
+    assert_eq!(encode_png(&LinearImage::transparent(0, 4), [0.0; 3]), None);
+}
+
+#[test]
+fn other_files_are_whole_too_and_folders_are_made() {
+    let folder = tempfile::tempdir().unwrap();
+    let deep = folder.path().join("a/b");
+    make_folder(&deep).unwrap();
+    make_folder(&deep).unwrap();
+    for text in ["first", "second"] {
+        write_bytes(&deep.join("table.csv"), text.as_bytes()).unwrap();
+        assert_eq!(fs::read_to_string(deep.join("table.csv")).unwrap(), text);
+    }
+    assert_eq!(names_in(&deep), ["table.csv"]);
+    let error = make_folder(&deep.join("table.csv/c")).unwrap_err().to_string();
+    assert!(error.contains("table.csv") && error.contains("the folder was not made"), "{error}");
+    assert!(write_bytes(&deep.join("none/table.csv"), b"x").is_err());
 }

@@ -18,6 +18,23 @@ pub(crate) fn write_whole(path: &Path, bytes: &[u8]) -> Result<(), IoError> {
         .map_err(|error| IoError::Write { path: path.to_owned(), problem: error.to_string() })
 }
 
+/// Writes a file that is complete in memory: a table, a page. It appears whole or not at all, and replaces one that was there.
+///
+/// # Errors
+/// [`IoError::Write`]; what was at `path` is as it was then.
+pub fn write_bytes(path: &Path, bytes: &[u8]) -> Result<(), IoError> {
+    write_whole(path, bytes)
+}
+
+/// Makes a folder, and those that it lies in, where they are not there yet.
+///
+/// # Errors
+/// [`IoError::Write`].
+pub fn make_folder(path: &Path) -> Result<(), IoError> {
+    fs::create_dir_all(path)
+        .map_err(|error| IoError::Write { path: path.to_owned(), problem: format!("the folder was not made: {error}") })
+}
+
 /// [`write_whole`] with the writing left to the caller.
 pub(super) fn try_write(path: &Path, write: impl FnOnce(&mut fs::File) -> io::Result<()>) -> io::Result<()> {
     let target = target_of(path)?;
