@@ -7,6 +7,7 @@
 )]
 
 mod cycles;
+mod errors;
 mod golden;
 mod gpu;
 mod hostile;

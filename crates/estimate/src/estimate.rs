@@ -123,7 +123,8 @@ pub fn estimate(subject: &Subject<'_>, picture: &LinearImage) -> Result<ErrorEst
         },
     ];
     let largest = errors.iter().copied().fold(0.0, f64::max);
-    let expected = probe.extrapolated(largest).max(ROUNDING).min(total);
+    // Added, as the pixel itself was rounded once more.
+    let expected = (probe.extrapolated(largest) + ROUNDING).min(total);
     Ok(ErrorEstimate { parts, expected, bound: total, rays: probe.rays.len() })
 }
 
