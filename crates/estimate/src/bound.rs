@@ -9,6 +9,7 @@
 use tetrascope_cpu::rays::RayTracer;
 use tetrascope_integrate::{Integration, OpticalModel, TransferFunction};
 use tetrascope_scene::{Interpolation, IsosurfaceMethod, Plan};
+use tetrascope_view::View;
 
 use crate::estimate::{BlendingOrder, Subject};
 
@@ -45,6 +46,9 @@ pub(crate) fn bounds(subject: &Subject<'_>, tracer: &RayTracer<'_>) -> Bounds {
         return none;
     }
     let sums = largest_sums(subject, tracer, &brightest);
+    // Segments that are longer than the ray's way through the mesh add up to more than the mesh could.
+    let is_longer = interpolates && plan.model.color_is_per_length();
+    let total = if is_longer { total.max((sums.emission + brightest.surface) * (1.0 + TABLE_SLACK)) } else { total };
     let of_segments = (!has_maps).then(|| sums.error.min(total));
     Bounds {
         integration: if is_exact(plan) { Some(0.0) } else { of_segments },
@@ -159,14 +163,17 @@ fn largest_sums(subject: &Subject<'_>, tracer: &RayTracer<'_>, brightest: &Brigh
     // A table knows scalars at its samples alone: a look-up may see as far as the next one.
     let reach = plan.table_settings().map_or(0.0, |table| (high - low) / f64::from(table.scalars - 1));
     let behind = brightest.behind();
+    // Lengths that are interpolated are depths at the thick vertex, seen along the pixel's ray.
+    let stretch = if plan.interpolation == Interpolation::Exact { 1.0 } else { longest_stretch(&plan.view) };
     for &(cell, [x0, x1, y0, y1]) in tracer.seen() {
         let corners = mesh.tetrahedra()[cell as usize];
         let values = corners.map(|v| scalars[v.index()]);
         let [from, to] = values.iter().fold([f64::INFINITY, f64::NEG_INFINITY], |[l, h], &s| [l.min(s), h.max(s)]);
         let positions = corners.map(|v| mesh.positions()[v.index()]);
         let longest = (0..4).flat_map(|i| (i + 1..4).map(move |j| (i, j)));
-        let longest =
-            longest.map(|(i, j)| positions[i].distance(positions[j])).fold(0.0, f64::max) * mesh.frame().scale;
+        let longest = longest.map(|(i, j)| positions[i].distance(positions[j])).fold(0.0, f64::max)
+            * mesh.frame().scale
+            * stretch;
         let reached = Values::between(&plan.transfer, (from - reach).max(low), (to + reach).min(high));
         let cuts = plan.isosurfaces.as_ref().map_or(0, |isosurfaces| isosurfaces.surfaces.between(from, to).len());
         let [color, opacity] = segment_error(plan, &reached, longest);
@@ -176,7 +183,7 @@ fn largest_sums(subject: &Subject<'_>, tracer: &RayTracer<'_>, brightest: &Brigh
             // The pieces between surfaces are as many segments, each no longer than the whole.
             error: (opacity.max(color + opacity * behind)) * (1 + cuts) as f64,
             depth: if plan.model.needs_extinction() { reached.extinction[1] * longest } else { 0.0 },
-            emission: reached.brightest() * longest,
+            emission: reached.brightest() * brightest.on_volume * longest,
         };
         for row in y0 / side..=y1 / side {
             for column in x0 / side..=x1 / side {
@@ -192,6 +199,11 @@ fn largest_sums(subject: &Subject<'_>, tracer: &RayTracer<'_>, brightest: &Brigh
         depth: most.depth.max(square.depth),
         emission: most.emission.max(square.emission),
     })
+}
+
+/// How much longer than its depth a ray to a corner of the picture is.
+fn longest_stretch(view: &View) -> f64 {
+    if view.is_perspective { (1.0 + view.half_width.powi(2) + view.half_height.powi(2)).sqrt() } else { 1.0 }
 }
 
 /// Least and greatest values of a transfer function over an interval.

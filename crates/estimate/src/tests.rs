@@ -143,7 +143,7 @@ fn a_wish_decides_between_cheap_and_right() {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(24))]
+    #![proptest_config(ProptestConfig::with_cases(200))]
 
     /// Whatever the transfer function and the eye: bounds hold, also where the estimate does not come near.
     #[test]
