@@ -34,6 +34,8 @@ pub struct Completed {
     pub warnings: Vec<String>,
     /// Whether the scene itself said what is done about rings.
     has_asked_for_cycles: bool,
+    /// Whether the scene itself said which error is wanted.
+    has_asked_for_error: bool,
 }
 
 impl Completed {
@@ -83,6 +85,11 @@ impl Completed {
     /// The largest error wanted in a channel, 0 to 1.
     pub fn max_error(&self) -> f64 {
         self.file.quality.max_error.unwrap_or(MAX_ERROR)
+    }
+
+    /// Whether the scene itself said which: then time may be traded for all of it.
+    pub const fn asks_for_error(&self) -> bool {
+        self.has_asked_for_error
     }
 
     /// Gives an integration that was left open its name, in the scene and in the file, with the reason.
@@ -197,13 +204,14 @@ impl SceneFile {
         };
         scene.tables = fill_tables(&mut file.quality, scene.chosen_integration().0, &mut warnings);
         let has_asked_for_cycles = file.quality.cycles.is_some();
+        let has_asked_for_error = self.quality.max_error.is_some();
         scene.cycles = fill_cycles(&mut file.quality, scene.decided_order(), &mut warnings);
         let plan = scene.plan()?;
         decisions.extend(plan.decisions);
         file.quality.integration = Choice::Named(plan.integration);
         file.quality.interpolation = Choice::Named(plan.interpolation);
         name_order(&mut file.quality, plan.order);
-        Ok(Completed { file, scene, decisions, warnings, has_asked_for_cycles })
+        Ok(Completed { file, scene, decisions, warnings, has_asked_for_cycles, has_asked_for_error })
     }
 
     /// Keys that are part of the contract but whose effect is not built: better no picture than another one.
