@@ -251,8 +251,8 @@ impl Work {
             // Four points and a sign; a position and a scalar.
             buffer("cells", BufferRole::Mesh, Bytes::Exact(17 * cells)),
             buffer("points", BufferRole::Mesh, Bytes::Exact(32 * points)),
-            // Where the pieces of a cell begin and how many there are; the cells that show anything.
-            buffer("transfer function", BufferRole::Lookup, Bytes::Exact(8 * cells + 4 * shown)),
+            // Where the pieces of a cell begin, how many there are, and whether it shows anything; the cells that do.
+            buffer("transfer function", BufferRole::Lookup, Bytes::Exact(9 * cells + 4 * shown)),
         ];
         if self.gradients == Gradients::Points {
             all.push(buffer("gradients", BufferRole::Mesh, Bytes::Exact(24 * points)));

@@ -2,10 +2,7 @@
 
 use std::time::Duration;
 
-use tetrascope::{
-    Backend, BufferRole, Counts, ErrorFigures, Gradients, Integration, IsosurfaceMethod, LinearImage, OrderMethod,
-    Plan, Rendered, VolumeField,
-};
+use tetrascope::{Backend, BufferRole, Counts, ErrorFigures, LinearImage, OrderMethod, Plan, Rendered, VolumeField};
 
 use crate::{Figure, Setting};
 
@@ -102,7 +99,7 @@ pub(crate) fn add_stages(sums: &mut Vec<(String, Duration)>, frame: Vec<(String,
     }
 }
 
-/// Bytes in use for a picture: a device's buffers as its back end counts them, or what the CPU back end documents of itself.
+/// Bytes in use for a picture: a device's buffers as its back end counts them, or what is foreseen of the CPU back end.
 pub(crate) fn memory_of(field: &VolumeField<'_>, plan: &Plan, rendered: &Rendered) -> Vec<(String, u64)> {
     let mut parts = match &rendered.device {
         Some(device) => BufferRole::ALL.map(|role| (role.to_string(), device.bytes(role))).to_vec(),
@@ -113,20 +110,16 @@ pub(crate) fn memory_of(field: &VolumeField<'_>, plan: &Plan, rendered: &Rendere
 }
 
 fn memory_on_cpu(field: &VolumeField<'_>, plan: &Plan, rendered: &Rendered) -> Vec<(String, u64)> {
-    let (cells, points) = (rendered.counts.cells, field.on_mesh.scalars.len() as u64);
-    let pixels = u64::from(plan.view.width) * u64::from(plan.view.height);
+    // Only a field that fits no mesh has none, and that was not drawn.
+    let Ok(work) = field.work(plan) else { return Vec::new() };
     let threads = plan.threads.or_else(|| std::thread::available_parallelism().map(usize::from).ok()).unwrap_or(1);
-    let gradients = if plan.gradients() == Gradients::Points { 24 * points } else { 0 };
-    let part = |name: &str, bytes: u64| (name.to_owned(), bytes);
-    vec![
-        part("mesh and field", 17 * cells + 32 * points + gradients),
-        part("cells by the transfer function", 12 * cells),
-        part("order", order_bytes(field, plan)),
-        part("lookups", table_bytes(plan) + map_bytes(plan)),
-        part("frame", 140 * rendered.counts.drawn),
-        part("fragments held back", 32 * rendered.counts.most_held * threads as u64),
-        part("picture", 16 * pixels),
-    ]
+    let held_back = 32 * rendered.counts.most_held * threads as u64;
+    let parts = BufferRole::ALL.map(|role| {
+        let foreseen: u64 = work.buffers.iter().filter(|b| b.role == role).map(|b| b.bytes.number()).sum();
+        let learned = if role == BufferRole::Order { order_bytes(field, plan) } else { 0 };
+        (role.to_string(), foreseen + learned)
+    });
+    parts.into_iter().chain([("fragments held back".to_owned(), held_back)]).collect()
 }
 
 /// What an order keeps of the mesh.
@@ -137,22 +130,6 @@ fn order_bytes(field: &VolumeField<'_>, plan: &Plan) -> u64 {
     }
     let Ok(renderer) = field.renderer() else { return 0 };
     renderer.visibility().prepare(renderer.cells(), plan.order).kept_bytes() as u64
-}
-
-/// Four floats an entry.
-const ENTRY: u64 = 16;
-
-fn table_bytes(plan: &Plan) -> u64 {
-    let Some(tables) = plan.table_settings() else { return 0 };
-    let plane = ENTRY * u64::from(tables.scalars).pow(2);
-    if plan.integration == Integration::Table3d { plane * u64::from(tables.lengths) } else { plane }
-}
-
-fn map_bytes(plan: &Plan) -> u64 {
-    match plan.isosurfaces.as_ref().map(|isosurfaces| isosurfaces.method) {
-        Some(IsosurfaceMethod::Map { size, .. }) => ENTRY * u64::from(size).pow(2),
-        Some(IsosurfaceMethod::Exact) | None => 0,
-    }
 }
 
 #[cfg(test)]

@@ -75,7 +75,7 @@ const KEPT: usize = 2;
 
 /// Draws one field on one mesh, again and again.
 ///
-/// Holds its own copy of what it needs: 17 bytes a tetrahedron and 32 a point, and up to 12 more a tetrahedron for each of
+/// Holds its own copy of what it needs: 17 bytes a tetrahedron and 32 a point, and up to 13 more a tetrahedron for each of
 /// the last two transfer functions. The memory of a frame is kept for the next one: about 140 bytes a visible tetrahedron. Where
 /// plans ask for them, also 24 bytes a point of gradients, up to 112 a visible tetrahedron for segments by fans, and the last two tables
 /// and maps; and where pixels sort by themselves, for each thread 32 bytes for every fragment of the fullest tile of 32 by 32 pixels, or
@@ -232,7 +232,11 @@ impl CpuRenderer {
         let outline = |cell: &[VertexId; 4]| points.pixel_box(&space, cell.map(|v| v.0));
         self.tetrahedra
             .par_iter()
-            .map(|cell| outline(cell).map_or(NOWHERE, |outline| outline.map(|p| p as u16)))
+            .zip(optics.is_shown())
+            // Where a cell is that shows nothing, nobody asks.
+            .map(|(cell, is_shown)| {
+                is_shown.then(|| outline(cell)).flatten().map_or(NOWHERE, |outline| outline.map(|p| p as u16))
+            })
             .collect_into_vec(outlines);
         let seen: Vec<CellId> =
             optics.visible().par_iter().copied().filter(|cell| outlines[cell.index()] != NOWHERE).collect();

@@ -22,6 +22,8 @@ pub(crate) struct Optics {
     pieces: Vec<CellPieces>,
     /// The cells that add something to the picture, ascending.
     visible: Vec<CellId>,
+    /// For every cell whether it is one of these.
+    is_shown: Vec<bool>,
 }
 
 /// A piece as lines through an anchor, f64.
@@ -96,19 +98,22 @@ impl Optics {
             let (low, high) = range(cell);
             shown.shows(low, high)
         };
-        let visible = (0..tetrahedra.len() as u32)
-            .into_par_iter()
-            .filter(|&cell| is_visible(&tetrahedra[cell as usize]))
-            .map(CellId)
-            .collect();
+        let is_shown: Vec<bool> = tetrahedra.par_iter().map(is_visible).collect();
+        let visible =
+            (0..tetrahedra.len() as u32).into_par_iter().filter(|&cell| is_shown[cell as usize]).map(CellId).collect();
         let lines = transfer.pieces().iter().map(Line::new).collect();
-        Self { source: source.clone(), shown, model, lines, pieces, visible }
+        Self { source: source.clone(), shown, model, lines, pieces, visible, is_shown }
     }
 
     /// Whether these are the optics of that transfer function, and of surfaces of these values.
     pub(crate) fn is_for(&self, transfer: &TransferFunction, model: OpticalModel, surfaces: &Isosurfaces) -> bool {
         let values = |surfaces: &Isosurfaces| surfaces.as_slice().iter().map(|s| s.value).collect::<Vec<_>>();
         self.model == model && self.source == *transfer && values(self.shown.surfaces()) == values(surfaces)
+    }
+
+    /// For every cell whether it adds something to the picture.
+    pub(crate) fn is_shown(&self) -> &[bool] {
+        &self.is_shown
     }
 
     pub(crate) fn visible(&self) -> &[CellId] {
