@@ -24,7 +24,7 @@ pub(crate) fn spread(tracer: &RayTracer<'_>, count: usize) -> Spread {
             let [left, right] = [column, column + 1].map(|index| begin(width, columns, index));
             let [top, bottom] = [row, row + 1].map(|index| begin(height, rows, index));
             let chance = mixed(u64::from(row) << 32 | u64::from(column));
-            let within = |length: u32, bits: u64| (u64::from(length) * (bits & 0xffff_ffff) >> 32) as u32;
+            let within = |length: u32, bits: u64| ((u64::from(length) * (bits & 0xffff_ffff)) >> 32) as u32;
             pixels.push([x0 + left + within(right - left, chance), y0 + top + within(bottom - top, chance >> 32)]);
         }
     }
