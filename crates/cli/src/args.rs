@@ -274,8 +274,8 @@ pub(crate) struct SceneArgs {
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..), help_heading = "Method")]
     pub(crate) slabs: Option<u32>,
     /// The largest error wanted in a channel, 0 to 1: a number, or a fraction such as 1/255; auto takes the integration that
-    /// is expected to meet it in the least time [default: 0.00392]
-    #[arg(long, value_name = "ERROR", value_parser = fraction, help_heading = "Method")]
+    /// is expected to meet it in the least time [default: 0.00392, of which auto trades 1e-4]
+    #[arg(long, value_name = "ERROR", value_parser = wanted_error, help_heading = "Method")]
     pub(crate) max_error: Option<f64>,
     /// auto, cpu, gpu, or reference (64-bit, every ray against every cell: slow) [default: cpu]
     #[arg(long, value_name = "NAME", help_heading = "Method")]
@@ -371,7 +371,6 @@ const COMPARE_EXAMPLES: &str = "\
 Examples:
   tetrascope compare fast.exr exact.exr
   tetrascope compare a.png b.png --threshold 1/255 -o difference.png
-  tetrascope plan scene.toml               what that would take, and why
   tetrascope compare a.exr b.exr --figure rms --threshold 1e-4 --json
 
 Two .exr are compared in linear floats, all four channels; two .png by their encoded values, 0 to 1. One of each: the .exr is laid over
@@ -432,6 +431,12 @@ pub(crate) fn fraction(text: &str) -> Result<f64, String> {
         return Err(format!("\"{text}\" is not a finite number"));
     }
     if value < 0.0 { Err(format!("\"{text}\" is negative")) } else { Ok(value) }
+}
+
+/// An error that can be wanted: no channel is off by more than 1.
+fn wanted_error(text: &str) -> Result<f64, String> {
+    let error = fraction(text)?;
+    if error > 1.0 { Err(format!("{error} is more than 1; give a number from 0 to 1")) } else { Ok(error) }
 }
 
 /// Control points of `N` numbers each; a type of its own, as a bare `Vec` would be taken for a repeated option.

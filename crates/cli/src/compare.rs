@@ -35,6 +35,14 @@ impl Compared {
 
 pub(crate) fn run(args: &CompareArgs) -> Result<(), Failure> {
     args.output.iter().try_for_each(|path| check_target(path, &["png", "exr"], "pictures"))?;
+    if let Some(output) = &args.output
+        && [&args.picture, &args.other].into_iter().any(|input| is_one_file(input, output))
+    {
+        return Err(Failure::Usage(format!(
+            "{}: that is one of the two pictures; name another file",
+            output.display()
+        )));
+    }
     let read = |path: &Path| read_picture(path).map_err(tetrascope::Error::Io);
     let files = [read(&args.picture)?, read(&args.other)?];
     let background = args.background.unwrap_or_default().map(|channel| channel as f32);
@@ -82,6 +90,11 @@ pub(crate) fn run(args: &CompareArgs) -> Result<(), Failure> {
         }
     }
     if is_within { Ok(()) } else { Err(Failure::Differs) }
+}
+
+/// Whether two paths lead to one file that is there.
+fn is_one_file(a: &Path, b: &Path) -> bool {
+    matches!((a.canonicalize(), b.canonicalize()), (Ok(a), Ok(b)) if a == b)
 }
 
 const fn name_of(figure: Figure) -> &'static str {

@@ -123,7 +123,8 @@ impl Job<'_> {
         bar: &Bar,
         report: &mut Report,
     ) -> Result<(), Failure> {
-        if !self.quiet {
+        // Whoever wants quiet and an error hears if it is not met.
+        if !self.quiet || self.scene.quality.max_error.is_some() {
             bar.step("estimating the error");
             let start = Instant::now();
             let estimate = field.estimate_error(plan, rendered)?;

@@ -239,8 +239,9 @@ impl Report {
     pub(crate) fn error(&mut self, estimate: &ErrorEstimate, wanted: Option<f64>, time: Duration) {
         let ErrorEstimate { parts, expected, bound, rays } = estimate;
         let text = format!(
-            "{} is the largest expected in a channel, an estimate from {rays} rays; at most {}",
+            "{} is the largest expected in a channel, an estimate from {rays} ray{}; at most {}",
             rough(*expected),
+            if *rays == 1 { "" } else { "s" },
             rough(*bound)
         );
         self.say("error", &text);
@@ -422,6 +423,7 @@ const fn remedy_of(cause: Cause) -> &'static str {
         Cause::Integration => "use --integration exact or auto",
         Cause::Order => "use --order auto",
         Cause::Interpolation => "use --interpolation exact",
+        Cause::Isosurfaces => "use quality.isosurfaces = \"exact\"",
         Cause::Blending => "use --backend reference",
     }
 }

@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use serde_json::{Value, json};
-use tetrascope::{Backend, Choice, Plan, SceneFile, Volume, VolumeField, make_folder, resolve_path};
+use tetrascope::{Backend, Choice, Plan, SceneFile, Volume, VolumeField, foresee_blank, make_folder, resolve_path};
 use tetrascope_study::{Figure, Options, Outcome, Study, bytes_text, error_text, ms_text, percent_text};
 
 use crate::Failure;
@@ -15,10 +15,15 @@ use crate::scene_paths::is_scene;
 
 pub(crate) fn run(args: &StudyArgs) -> Result<(), Failure> {
     // What is wrong with the folder is said before minutes of work, not after.
+    let was_there = args.output.is_dir();
     make_folder(&args.output).map_err(tetrascope::Error::Io)?;
     let bar = Bar::new(false);
     let done = study(args, &bar);
     bar.clear();
+    if done.is_err() && !was_there {
+        // Empty, or it stays: nobody else's files are touched.
+        let _ = std::fs::remove_dir(&args.output);
+    }
     let study = done?;
     let paths = study.write(&args.output).map_err(failure)?;
     if args.json {
@@ -53,22 +58,29 @@ fn study(args: &StudyArgs, bar: &Bar) -> Result<Study, Failure> {
     let volume = Volume::load(&resolve_path(&base_dir, &scene.mesh.path), solution.as_deref())?;
     let field = volume.field(scene.mesh.field.as_deref())?;
     bar.clear();
-    let warnings = volume.warnings.iter().chain(&field.field.warnings).cloned();
+    let findings = volume.decomposition.counts.findings();
+    let warnings = volume.warnings.iter().chain(&findings).chain(&field.field.warnings).cloned();
     warnings.chain(field.on_mesh.warning()).for_each(|text| warning(&text));
 
     bar.step("choosing methods");
     let scene_path = args.input.first().map(PathBuf::as_path).filter(|path| is_scene(path));
     let threads = args.threads.map(usize::from);
-    let own = plan_of(&field, scene.clone(), threads, scene_path)?;
-    let start = plan_of(&field, as_auto_has_it(scene), threads, scene_path)?;
+    let (own, warnings) = plan_of(&field, scene.clone(), threads, scene_path)?;
+    let (start, _) = plan_of(&field, as_auto_has_it(scene), threads, scene_path)?;
     bar.clear();
+    warnings.iter().for_each(|text| warning(text));
+    let blank = foresee_blank(&start, &field.facts);
+    if !blank.is_empty() {
+        warning(&format!("the pictures will be blank: {}", blank.join("; ")));
+    }
 
     let options = Options {
         name: name_of(&args.input[0]),
         is_quick: args.quick,
         frames: args.frames.map(u32::from),
         adapter: args.adapter.clone(),
-        scene_plan: Some(own),
+        // The reference is what all are compared with, and no setting.
+        scene_plan: Some(own).filter(|plan| plan.backend != Backend::Reference),
         ..Options::default()
     };
     Study::run(&field, &start, &options, bar).map_err(failure)
@@ -81,6 +93,7 @@ fn as_auto_has_it(mut scene: SceneFile) -> SceneFile {
     (quality.table_size, quality.table_lengths, quality.length_axis, quality.max_error) = (None, None, None, None);
     (quality.slabs, quality.window) = (None, None);
     quality.order = Choice::Auto;
+    (quality.cycles, quality.interpolation, quality.isosurfaces, quality.map_size) = (None, Choice::Auto, None, None);
     quality.replace_backend(Choice::Named(Backend::Cpu));
     scene
 }
@@ -90,11 +103,12 @@ fn plan_of(
     scene: SceneFile,
     threads: Option<usize>,
     scene_path: Option<&Path>,
-) -> Result<Plan, Failure> {
+) -> Result<(Plan, Vec<String>), Failure> {
     let wrong = |error: tetrascope::Error| wrong_scene(scene_path, error);
     let mut completed = scene.complete(&field.facts).map_err(|error| wrong(error.into()))?;
     completed.scene.threads = threads;
-    field.plan(&mut completed).map_err(wrong)
+    let plan = field.plan(&mut completed).map_err(wrong)?;
+    Ok((plan, completed.warnings))
 }
 
 /// The input's name without its folders.

@@ -376,7 +376,7 @@ fn a_blank_picture_is_explained() {
     for (options, reason) in [
         (
             ["--extinction", "7:0; 8:1"],
-            "the field goes from 0 to 4, the transfer function's control points from 0 to 8",
+            "the field goes from 0 to 4, the control points of the extinction from 7 to 8, and the field lies outside of them",
         ),
         (["--target", "50,50,50"], "does not see the mesh"),
         (["--extinction", "0:1e-9"], "too small"),

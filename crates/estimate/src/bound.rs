@@ -29,6 +29,8 @@ pub(crate) struct Bounds {
     pub(crate) order: Option<f64>,
     /// Error of the interpolation, likewise.
     pub(crate) interpolation: Option<f64>,
+    /// Error of isosurfaces that are looked up, likewise.
+    pub(crate) surfaces: Option<f64>,
     /// The whole error of any picture of the scene.
     pub(crate) total: f64,
 }
@@ -41,17 +43,21 @@ pub(crate) fn bounds(subject: &Subject<'_>, tracer: &RayTracer<'_>) -> Bounds {
     let is_right_order = matches!(subject.order, BlendingOrder::Right);
     let interpolates = plan.interpolation != Interpolation::Exact;
     let total = brightest.of_picture();
-    let none = Bounds { integration: Some(0.0), order: Some(0.0), interpolation: Some(0.0), total };
-    if is_exact(plan) && is_right_order && !interpolates {
+    let none =
+        Bounds { integration: Some(0.0), order: Some(0.0), interpolation: Some(0.0), surfaces: Some(0.0), total };
+    if is_exact(plan) && is_right_order && !interpolates && !has_maps {
         return none;
     }
     let sums = largest_sums(subject, tracer, &brightest);
     // Segments that are longer than the ray's way through the mesh add up to more than the mesh could.
     let is_longer = interpolates && plan.model.color_is_per_length();
     let total = if is_longer { total.max((sums.emission + brightest.surface) * (1.0 + TABLE_SLACK)) } else { total };
-    let of_segments = (!has_maps).then(|| sums.error.min(total));
+    // A surface that lies where a segment is not is met in another place, or not at all.
+    let moves_surfaces = interpolates && plan.isosurfaces.is_some();
+    let of_segments = (!has_maps && !moves_surfaces).then(|| sums.error.min(total));
     Bounds {
         integration: if is_exact(plan) { Some(0.0) } else { of_segments },
+        surfaces: if has_maps { None } else { Some(0.0) },
         order: if is_right_order { Some(0.0) } else { Some(brightest.of_order(&sums, plan).min(total)) },
         interpolation: if interpolates { of_segments } else { Some(0.0) },
         total,
@@ -60,14 +66,12 @@ pub(crate) fn bounds(subject: &Subject<'_>, tracer: &RayTracer<'_>) -> Bounds {
 
 /// Whether nothing but rounding is between the integration and the exact one.
 pub(crate) fn is_exact(plan: &Plan) -> bool {
-    let by_integrals = match plan.integration {
+    match plan.integration {
         Integration::Exact => true,
         // Its opacity is exact, and so is what has no opacity.
         Integration::Cumulative => matches!(plan.model, OpticalModel::Absorption | OpticalModel::Emission),
         _ => false,
-    };
-    let has_maps = plan.isosurfaces.as_ref().is_some_and(|surfaces| surfaces.method != IsosurfaceMethod::Exact);
-    by_integrals && !has_maps
+    }
 }
 
 /// What values of a picture do not exceed.
@@ -107,7 +111,8 @@ impl Brightest {
             [0.0; 2]
         };
         let diagonal = mesh.bounds_world().map_or(0.0, |(lowest, highest)| (highest - lowest).length());
-        let darkest = if on_volume == 1.0 { darkest } else { 0.0 };
+        // Light that falls on the volume is somewhere less than all of it.
+        let darkest = if plan.lighting.is_some_and(|lighting| lighting.volume) { 0.0 } else { darkest };
         Self { color: [darkest, brightest * on_volume], surface, on_volume, length: diagonal, model: plan.model }
     }
 
@@ -121,7 +126,8 @@ impl Brightest {
     /// What lies behind a segment is not brighter.
     fn behind(&self) -> f64 {
         let volume = if self.model.color_is_per_length() { self.color[1] * self.length } else { self.color[1] };
-        volume.max(self.surface)
+        // Light that is added up by length comes to what a surface shows.
+        if self.model.color_is_per_length() { volume + self.surface } else { volume.max(self.surface) }
     }
 
     /// What another order may do: opacity is the same in any, and colors stay between the darkest and the brightest.
@@ -217,7 +223,13 @@ impl Values {
     fn between(transfer: &TransferFunction, low: f64, high: f64) -> Self {
         let mut values = Self { extinction: [f64::INFINITY, 0.0], color: [[f64::INFINITY, 0.0]; 3] };
         let widen = |range: &mut [f64; 2], value: f64| *range = [range[0].min(value), range[1].max(value)];
-        for piece in &transfer.pieces()[transfer.pieces_between(low, high)] {
+        let pieces = transfer.pieces();
+        let inner = transfer.pieces_between(low, high);
+        // With a step at an end of the interval both of its sides count: the piece beyond has a point in common with it.
+        for piece in &pieces[inner.start.saturating_sub(1)..(inner.end + 1).min(pieces.len())] {
+            if piece.start > high || piece.end < low {
+                continue;
+            }
             for scalar in [low.max(piece.start), high.min(piece.end)] {
                 widen(&mut values.extinction, piece.extinction_at(scalar));
                 for (range, value) in values.color.iter_mut().zip(piece.color_at(scalar)) {
@@ -225,8 +237,6 @@ impl Values {
                 }
             }
         }
-        // On a step both sides count: at the very ends of the interval too.
-        values.extinction[1] = values.extinction[1].max(transfer.max_extinction(low, high));
         values
     }
 

@@ -19,12 +19,6 @@ const RAYS: usize = 384;
 /// A method is worth its error only if it is expected to take less than this share of the time of the exact one.
 const WORTH: f64 = 0.85;
 
-/// Another order is worth its error only below this share: it errs in single pixels, which rays may miss.
-const ORDER_WORTH: f64 = 0.83;
-
-/// For the same reason the error of another order has to stay below this share of what is wanted.
-const ORDER_SHARE: f64 = 0.5;
-
 /// What the largest error of a picture in 32 bits by an exact integration in an exact order stays below, as a rule: rounding, and steps of the
 /// transfer function or isosurfaces in single pixels.
 pub const ROUNDING_OF_32_BITS: f64 = 5e-5;
@@ -132,45 +126,6 @@ pub fn choose_integration(
         )
     };
     Ok(IntegrationChoice { integration: Integration::Exact, tables: None, reason, candidates })
-}
-
-/// Whether cells sorted by their centers are near enough to the right order, and worth it: the reason, or `None`.
-///
-/// - `plan`: with the integration that it will have; its order is taken for a right one
-/// - `ranks`: for every cell its place when sorted by centers; asked for only where that would take much less time
-///
-/// # Errors
-/// [`RenderError`] as [`RayTracer::new`] and [`RayTracer::shader`].
-pub fn choose_centers(
-    mesh: &TetMesh,
-    scalars: &[f64],
-    plan: &Plan,
-    max_error: f64,
-    ranks: impl FnOnce() -> Vec<u32>,
-) -> Result<Option<String>, RenderError> {
-    let tracer = RayTracer::new(mesh, scalars, &plan.view)?;
-    let share =
-        work(mesh, scalars, plan, &tracer).by_centers(mesh.tetrahedra().len() as f64, plan.integration, plan.model);
-    if share > ORDER_WORTH {
-        return Ok(None);
-    }
-    let ranks = ranks();
-    let mut probe = Probe::new(&tracer, plan, 2 * RAYS)?;
-    let shader = tracer.shader(plan, &Silent)?;
-    let errors = probe.look_for_worse(|probe, ray| {
-        let light = shader.light_by_rank(&probe.rays, ray, |cell| ranks[cell as usize]);
-        difference(&channels(light), &probe.exact[ray])
-    });
-    let expected = probe.extrapolated(errors.iter().copied().fold(0.0, f64::max)) + RESERVE;
-    Ok((expected <= ORDER_SHARE * max_error).then(|| {
-        format!(
-            "its error is estimated at {} on {} rays, within {}; it is expected to take {} % of the time of a right order",
-            rough(expected),
-            errors.len(),
-            rough(max_error),
-            short((100.0 * share).round())
-        )
-    }))
 }
 
 /// What a frame has to do, guessed from the outlines of cells.

@@ -6,7 +6,7 @@
 
 use tetrascope_integrate::{Integration, OpticalModel, TableSettings};
 
-use crate::Survey;
+use crate::survey::Survey;
 
 /// What a frame takes whatever is in it: threads that wake up, memory that is cleared.
 const FRAME: f64 = 120_000.0;
@@ -14,10 +14,6 @@ const FRAME: f64 = 120_000.0;
 const CELL: f64 = 450.0;
 /// The same with its fan.
 const CELL_WITH_FAN: f64 = 900.0;
-/// A cell of the mesh in an order that is right, whether it is drawn or not.
-const RIGHTLY_ORDERED: f64 = 60.0;
-/// A cell that is drawn, sorted by its center.
-const SORTED: f64 = 18.0;
 /// An entry of a table, once a transfer function.
 const TABLE_ENTRY: f64 = 200.0;
 
@@ -50,14 +46,6 @@ impl Work {
     ) -> f64 {
         let cell = if integration.needs_fan() { CELL_WITH_FAN } else { CELL };
         FRAME + self.cells * cell + self.blocks * self.block(integration, model) + table(integration, tables)
-    }
-
-    /// The time of a picture in which cells are sorted by their centers, as a share of the time in the right order.
-    ///
-    /// - `all`: cells of the mesh
-    pub(crate) fn by_centers(&self, all: f64, integration: Integration, model: OpticalModel) -> f64 {
-        let drawn = self.nanoseconds(integration, model, None);
-        (drawn + self.cells * SORTED) / (drawn + all * RIGHTLY_ORDERED)
     }
 
     /// Nanoseconds of a block.

@@ -8,6 +8,7 @@ use tetrascope_order::PixelSort;
 use tetrascope_scene::{Interpolation, Plan, Silent};
 use tetrascope_view::LinearImage;
 
+use crate::EstimateError;
 use crate::bound::{Bounds, bounds};
 use crate::probe::{Probe, channels, difference};
 
@@ -45,7 +46,9 @@ pub enum Cause {
     Order,
     /// How that way is found at a pixel.
     Interpolation,
-    /// Rounding: of the cells, of their light, and of adding it up.
+    /// Isosurfaces that are looked up in maps, half a sample beside their values.
+    Isosurfaces,
+    /// Rounding: of the cells, of their light, and of adding it up; and rays that end where hardly anything comes through.
     Blending,
 }
 
@@ -55,6 +58,7 @@ impl std::fmt::Display for Cause {
             Self::Integration => "integration",
             Self::Order => "order",
             Self::Interpolation => "interpolation",
+            Self::Isosurfaces => "isosurfaces",
             Self::Blending => "blending",
         })
     }
@@ -75,7 +79,7 @@ pub struct ErrorPart {
 #[derive(Clone, Debug, PartialEq)]
 pub struct ErrorEstimate {
     /// One a cause.
-    pub parts: [ErrorPart; 4],
+    pub parts: [ErrorPart; 5],
     /// An estimate of the largest error of any channel of any pixel, from all causes.
     pub expected: f64,
     /// What that error does not exceed, whatever the rays say.
@@ -90,9 +94,18 @@ const ROUNDING: f64 = 6e-8;
 /// Measures a picture on about [`RAYS`] rays, traced in f64 and integrated exactly, and says what the whole of it is expected to be like.
 ///
 /// # Errors
-/// [`RenderError`] as [`RayTracer::new`] and [`RayTracer::shader`].
-pub fn estimate(subject: &Subject<'_>, picture: &LinearImage) -> Result<ErrorEstimate, RenderError> {
+/// [`EstimateError::PictureSize`] and [`EstimateError::Ranks`], else as [`RayTracer::new`] and [`RayTracer::shader`].
+pub fn estimate(subject: &Subject<'_>, picture: &LinearImage) -> Result<ErrorEstimate, EstimateError> {
     let Subject { mesh, scalars, plan, .. } = *subject;
+    let (found, expected) = ([picture.width(), picture.height()], [plan.view.width, plan.view.height]);
+    if found != expected {
+        return Err(EstimateError::PictureSize { found, expected });
+    }
+    if let BlendingOrder::Ranks(ranks) = subject.order
+        && ranks.len() != mesh.tetrahedra().len()
+    {
+        return Err(EstimateError::Ranks { ranks: ranks.len(), cells: mesh.tetrahedra().len() });
+    }
     let tracer = RayTracer::new(mesh, scalars, &plan.view)?;
     let mut probe = Probe::new(&tracer, plan, RAYS)?;
     let pixel = |probe: &Probe<'_>, ray: usize| {
@@ -106,17 +119,24 @@ pub fn estimate(subject: &Subject<'_>, picture: &LinearImage) -> Result<ErrorEst
         (0..probe.rays.len()).into_par_iter().map(|ray| method.lights(&probe, ray)).collect();
     let part = |cause: Cause, error: &(dyn Fn(usize) -> f64 + Sync), bound: Option<f64>| {
         let largest = (0..probe.rays.len()).map(error).fold(0.0, f64::max);
-        ErrorPart { cause, expected: probe.extrapolated(largest), bound }
+        // What is guessed beyond what was measured does not go beyond the bound.
+        let expected = probe.extrapolated(largest).min(bound.unwrap_or(f64::INFINITY)).max(largest);
+        ErrorPart { cause, expected, bound }
     };
-    let Bounds { integration, order, interpolation, total } = bounds(subject, &tracer);
+    let Bounds { integration, order, interpolation, surfaces, total } = bounds(subject, &tracer);
+    // What is left has one cause that is not rounding, at most.
+    let has_maps = surfaces.is_none();
+    let interpolates = plan.interpolation != Interpolation::Exact && !has_maps;
     let rest = |ray: usize| difference(&pixel(&probe, ray), &lights[ray][1]);
-    let none = |cause| ErrorPart { cause, expected: 0.0, bound: Some(0.0) };
-    let interpolates = plan.interpolation != Interpolation::Exact;
+    let rest_if = |is_cause: bool, cause: Cause, bound: Option<f64>| {
+        if is_cause { part(cause, &rest, bound) } else { ErrorPart { cause, expected: 0.0, bound: Some(0.0) } }
+    };
     let parts = [
         part(Cause::Integration, &|ray| difference(&lights[ray][0], &probe.exact[ray]), integration),
         part(Cause::Order, &|ray| difference(&lights[ray][1], &lights[ray][0]), order),
-        if interpolates { part(Cause::Interpolation, &rest, interpolation) } else { none(Cause::Interpolation) },
-        if interpolates {
+        rest_if(interpolates, Cause::Interpolation, interpolation),
+        rest_if(has_maps, Cause::Isosurfaces, surfaces),
+        if interpolates || has_maps {
             ErrorPart { cause: Cause::Blending, expected: ROUNDING, bound: None }
         } else {
             part(Cause::Blending, &rest, None)

@@ -11,8 +11,8 @@
 //!   taken to be three times the largest of these. Single pixels may be worse.
 //!
 //! [`choose_integration`] asks before anything is drawn: which methods would take less time than the exact one, by a model of the
-//! CPU back end's cost, and which of these stay within a wanted error, by their bounds or by rays; [`choose_centers`] the same of
-//! cells sorted by their centers, where a right order takes much of a frame.
+//! CPU back end's cost, and which of these stay within a wanted error, by their bounds or by rays.
+//! Orders are not traded: a wrong one errs in single pixels, which rays do not see.
 //!
 //! ```
 //! use glam::DVec3;
@@ -47,14 +47,15 @@
 mod bound;
 mod choose;
 mod cost;
+mod error;
 mod estimate;
 mod probe;
 mod sample;
 mod survey;
 
-pub use choose::{Candidate, IntegrationChoice, ROUNDING_OF_32_BITS, choose_centers, choose_integration};
+pub use choose::{Candidate, IntegrationChoice, ROUNDING_OF_32_BITS, choose_integration};
+pub use error::EstimateError;
 pub use estimate::{BlendingOrder, Cause, ErrorEstimate, ErrorPart, RAYS, Subject, estimate};
-pub use survey::Survey;
 
 /// Compiles and runs the README's example.
 #[cfg(doctest)]

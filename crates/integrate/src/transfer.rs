@@ -183,6 +183,16 @@ impl TransferFunction {
         (lowest, color[color.len() - 1].scalar.max(extinction[extinction.len() - 1].scalar))
     }
 
+    /// The lowest and the highest control point of the extinction.
+    pub fn extinction_domain(&self) -> (f64, f64) {
+        (self.extinction[0].scalar, self.extinction[self.extinction.len() - 1].scalar)
+    }
+
+    /// The lowest and the highest control point of the color.
+    pub fn color_domain(&self) -> (f64, f64) {
+        (self.color[0].scalar, self.color[self.color.len() - 1].scalar)
+    }
+
     /// The same optics with lengths in another unit: `factor` is the new unit's length in the old one.
     ///
     /// The extinction is multiplied by `factor`, and the color too where the model has it per length. What grows beyond

@@ -64,14 +64,17 @@ fn out_of_view(side: &str, facts: &MeshFacts) -> String {
 /// Where the field lies, beside the control points of the transfer function.
 fn ranges(plan: &Plan, facts: &MeshFacts) -> String {
     let (low, high) = facts.scalar_range;
-    let (first, last) = plan.transfer.domain();
+    // Of what makes the volume seen: points of the other half may lie anywhere.
+    let is_color = plan.model.color_is_per_length();
+    let (first, last) = if is_color { plan.transfer.color_domain() } else { plan.transfer.extinction_domain() };
+    let what = if is_color { "color" } else { "extinction" };
     let field = if low == high {
         format!("the field is {} everywhere", short(low))
     } else {
         format!("the field goes from {} to {}", short(low), short(high))
     };
-    let outside = if high < first || low > last { ", outside of them" } else { "" };
-    format!("{field}, the transfer function's control points from {} to {}{outside}", short(first), short(last))
+    let outside = if high < first || low > last { ", and the field lies outside of them" } else { "" };
+    format!("{field}, the control points of the {what} from {} to {}{outside}", short(first), short(last))
 }
 
 /// Why the volume is under one gray level on every ray, if that is sure.

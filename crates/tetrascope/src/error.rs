@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 
 use tetrascope_cpu::RenderError;
+use tetrascope_estimate::EstimateError;
 use tetrascope_gpu::GpuError;
 use tetrascope_io::IoError;
 use tetrascope_mesh::MeshError;
@@ -46,6 +47,9 @@ pub enum Error {
     /// The GPU gave no picture.
     #[error(transparent)]
     Gpu(#[from] GpuError),
+    /// Nothing can be said of a picture's error.
+    #[error(transparent)]
+    Estimate(#[from] EstimateError),
     /// A mesh that is built in goes by another name.
     #[error("there is no built-in mesh \"{}\"; there is {}", name.display(), crate::SAMPLE)]
     NoSuchSample {

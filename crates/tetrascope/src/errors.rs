@@ -1,11 +1,9 @@
 //! How wrong a picture of a field is.
 
-use tetrascope_estimate::{
-    BlendingOrder, ErrorEstimate, ROUNDING_OF_32_BITS, Subject, Survey, choose_centers, choose_integration, estimate,
-};
+use tetrascope_estimate::{BlendingOrder, ErrorEstimate, ROUNDING_OF_32_BITS, Subject, choose_integration, estimate};
 use tetrascope_mesh::CellId;
 use tetrascope_order::{CycleRemedy, Guarantee, OrderMethod};
-use tetrascope_scene::{Backend, Completed, Interpolation, Plan, Progress, Rendered, rough};
+use tetrascope_scene::{Backend, Completed, Interpolation, IsosurfaceMethod, Plan, Progress, Rendered, rough};
 use tetrascope_view::LinearImage;
 
 use crate::threads::on_threads;
@@ -25,6 +23,16 @@ impl VolumeField<'_> {
         on_threads(plan.threads, || {
             let ranks = (!self.has_right_order(plan, rendered)).then(|| self.ranks(plan));
             let order = ranks.as_deref().map_or(BlendingOrder::Right, BlendingOrder::Ranks);
+            // The reference cuts rays whatever the plan says of segments and maps.
+            let cuts = plan.backend == Backend::Reference;
+            let mut drawn = plan.clone();
+            if cuts {
+                drawn.interpolation = Interpolation::Exact;
+                if let Some(isosurfaces) = &mut drawn.isosurfaces {
+                    isosurfaces.method = IsosurfaceMethod::Exact;
+                }
+            }
+            let plan = &drawn;
             let subject = Subject { mesh: self.mesh(), scalars: &self.on_mesh.scalars, plan, order };
             Ok(estimate(&subject, &rendered.image)?)
         })?
@@ -71,24 +79,6 @@ impl VolumeField<'_> {
         let traded = if completed.asks_for_error() { wanted } else { wanted.min(UNASKED) };
         let choice = choose_integration(self.mesh(), &self.on_mesh.scalars, &plan, traded)?;
         Ok(completed.settle_integration(choice.integration, choice.tables, &choice.reason)?)
-    }
-
-    /// Whether the scene wants no more than what cells sorted by their centers give, and that takes much less time than a right order; the
-    /// reason, or `None`. Only for scenes that say which error they want.
-    ///
-    /// # Errors
-    /// [`Error::Scene`] and [`Error::Render`].
-    pub(crate) fn prefers_centers(&self, completed: &Completed) -> Result<Option<String>, Error> {
-        if !completed.asks_for_error() || completed.scene.backend != Some(Backend::Cpu) {
-            return Ok(None);
-        }
-        let plan = Plan { order: OrderMethod::Centroid, ..completed.scene.plan()? };
-        Ok(choose_centers(self.mesh(), &self.on_mesh.scalars, &plan, completed.max_error(), || self.ranks(&plan))?)
-    }
-
-    /// What its cells ask of an integration.
-    pub fn survey(&self, plan: &Plan) -> Survey {
-        Survey::new(self.mesh(), &self.on_mesh.scalars, plan)
     }
 
     /// Whether every ray of a picture was blended in the right order, or the order does not matter.

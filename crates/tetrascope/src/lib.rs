@@ -49,7 +49,7 @@ pub use render::{Picture, is_blank, render_scene, render_volume, warn_of_non_fin
 pub use volume::{SAMPLE, Volume, VolumeField, is_builtin, resolve_path};
 
 pub use tetrascope_cpu::{CpuRenderer, RenderError, reference};
-pub use tetrascope_estimate::{BlendingOrder, Cause, ErrorEstimate, ErrorPart, Survey};
+pub use tetrascope_estimate::{BlendingOrder, Cause, ErrorEstimate, ErrorPart, EstimateError};
 pub use tetrascope_gpu::{AdapterChoice, AdapterDescription, Gpu, GpuError, GpuRenderer, adapters};
 pub use tetrascope_integrate::{
     Crossing, Deviation, Integration, Integrator, Isosurface, IsosurfaceError, IsosurfaceMap, Isosurfaces, LengthAxis,

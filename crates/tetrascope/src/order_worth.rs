@@ -66,12 +66,6 @@ impl VolumeField<'_> {
             }
             let choice = visibility.choose(cells);
             completed.settle_order(choice.method, choice.reason);
-            // A key a cell is as cheap as a center.
-            if choice.method != OrderMethod::Power
-                && let Some(reason) = self.prefers_centers(completed)?
-            {
-                completed.settle_order(OrderMethod::Centroid, &reason);
-            }
         }
         Ok(())
     }

@@ -104,8 +104,10 @@ fn outcomes(
         let estimate = field.estimate_error(&plan, &rendered)?;
         let tabulated = rendered.timings.iter().filter(|(stage, _)| *stage == tetrascope::Stage::Tabulate);
         let tabulated: f64 = tabulated.map(|(_, time)| time.as_secs_f64()).sum();
-        let parts_hold =
-            estimate.parts.iter().all(|part| part.bound.is_none_or(|bound| part.expected <= 3.0 * bound + 1e-9));
+        let parts_hold = estimate
+            .parts
+            .iter()
+            .all(|part| part.bound.is_none_or(|bound| part.expected <= bound * (1.0 + 1e-9) + 1e-9));
         outcomes.push((
             tabulated,
             Outcome {

@@ -62,10 +62,13 @@ fn is_outside(is_perspective: bool, corners: [DVec3; 4]) -> bool {
     corners.iter().all(|p| p.z <= 0.0) || beyond(&|p| p.x) || beyond(&|p| -p.x) || beyond(&|p| p.y) || beyond(&|p| -p.y)
 }
 
+/// What a cell that reaches behind the eye is taken to cover, a quarter of the picture: its silhouette has no end.
+const AT_THE_EYE: f64 = 1.0;
+
 /// The part of a silhouette that lies in the picture, whose sides are 2 long: half of what its four faces cover, as rays meet two of them.
 fn area(is_perspective: bool, corners: [DVec3; 4]) -> f64 {
     if corners.iter().any(|p| p.z <= 0.0) {
-        return 0.0;
+        return AT_THE_EYE;
     }
     let [a, b, c, d] = corners.map(|p| if is_perspective { p.truncate() / p.z } else { p.truncate() });
     let face = |p: DVec2, q: DVec2, r: DVec2| 0.5 * (q - p).perp_dot(r - p).abs();
