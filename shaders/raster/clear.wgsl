@@ -1,4 +1,4 @@
-// A picture with nothing in it: one invocation a pixel, count of a tile, or half of what a pixel that sorts has to know.
+// A picture with nothing in it: one invocation a pixel, count of a tile, or a part of what a pixel that sorts has to know.
 
 #use include/frame.wgsl
 #use include/list.wgsl

@@ -43,9 +43,8 @@ fn draw(
     var is_open = is_seen && pixel.transmittance >= frame.termination;
     var joint = no_joint();
     var done = Done(0u, 0u, 0u, 0u);
-    var is_cut = false;
-    var first = range.x;
-    for (; first < range.y; first += BATCH) {
+    let before = begin_tile(tile, local);
+    for (var first = range.x; first < range.y; first += BATCH) {
         let count = min(BATCH, range.y - first);
         if local < count {
             stage(local, tile_items[first + local], tile);
@@ -69,7 +68,6 @@ fn draw(
                 slot += 1u;
             }
         }
-        is_cut = is_cut || (is_open && slot < count);
         if is_open {
             atomicAdd(&open_pixels, 1u);
         }
@@ -81,9 +79,8 @@ fn draw(
             break;
         }
     }
-    is_cut = is_cut || (is_open && first < range.y);
     if is_seen {
         store_pixel(position, pixel);
     }
-    count_done(tile, local, done, false, is_cut);
+    count_done(tile, local, before, done, false, is_cut(range.y));
 }

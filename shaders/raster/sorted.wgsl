@@ -6,6 +6,8 @@
 // - LAYERS: it looks for the HELD nearest behind those that it has, and goes on from there when the stage is run again, until no tile is open. Exact
 //   without any order; time grows with the layers divided by HELD. What a pixel has to know in the next run stands behind the tiles in `picture`.
 // - else, a window: it runs through them once, and gives up the nearest when one more comes than the window holds (a k-buffer).
+//
+// Where a driver ends long loops (SLICE above 0), a run looks at so many of the tile's cells and no more, and what it holds back stands in `picture` too.
 
 #use integrate/light.wgsl
 #use <volume>
@@ -20,20 +22,27 @@ struct Key {
     place: u32,
 }
 
-var<workgroup> range_of_tile: vec2<u32>;
+// Whether pixels have to know anything.
+const HAS_STATE: bool = LAYERS || SLICE > 0u;
+
+// What of the tile's list is looked at, and its end.
+var<workgroup> range_of_tile: vec3<u32>;
 var<workgroup> open_pixels: atomic<u32>;
 var<workgroup> is_any_open: u32;
 
-// What a pixel has to know in the next run.
+// What a pixel has to know in the next run, besides the segments that it holds back.
 struct State {
-    // The last segment that it blended.
+    // The last segment that it blended when it was through the cells.
     depth: f32,
     place: u32,
     run: u32,
+    // Cells of the tile that it has looked at since then: the same for all open pixels of a tile.
+    looked_at: u32,
     joint: Joint,
+    held_count: u32,
 }
 
-// A picture that was cleared says FIRST_RUN.
+// How often it was through all cells. A picture that was cleared says FIRST_RUN.
 const FIRST_RUN: u32 = 0u;
 const NEXT_RUN: u32 = 1u;
 const LAST_RUN: u32 = 2u;
@@ -91,20 +100,47 @@ fn draw_segment(place: u32, position: vec2<i32>) {
 
 fn state_place(position: vec2<i32>) -> u32 {
     let tiles = frame.tiles.x * frame.tiles.y;
-    return frame.extent.x * frame.extent.y + tiles + 2u * place_in_picture(position);
+    return frame.extent.x * frame.extent.y + tiles + STATE * place_in_picture(position);
 }
 
 fn load_state(position: vec2<i32>) -> State {
     let at = state_place(position);
     let key = picture[at];
-    let carried = bitcast<vec4<f32>>(picture[at + 1u]);
-    return State(bitcast<f32>(key.x), key.y, key.z, Joint(carried.x, carried.y, carried.z));
+    let carried = picture[at + 1u];
+    let joint = bitcast<vec3<f32>>(carried.xyz);
+    return State(bitcast<f32>(key.x), key.y, key.z, key.w, Joint(joint.x, joint.y, joint.z), carried.w);
 }
 
 fn store_state(position: vec2<i32>, state: State) {
     let at = state_place(position);
-    picture[at] = vec4<u32>(bitcast<u32>(state.depth), state.place, state.run, 0u);
-    picture[at + 1u] = bitcast<vec4<u32>>(vec4<f32>(state.joint.depth, state.joint.slack, state.joint.rank, 0.0));
+    picture[at] = vec4<u32>(bitcast<u32>(state.depth), state.place, state.run, state.looked_at);
+    let joint = bitcast<vec3<u32>>(vec3<f32>(state.joint.depth, state.joint.slack, state.joint.rank));
+    picture[at + 1u] = vec4<u32>(joint, state.held_count);
+}
+
+// Takes up the segments that an earlier run held back.
+fn load_held(position: vec2<i32>, count: u32) {
+    let at = state_place(position) + 2u;
+    held_count = min(count, HELD);
+    for (var slot = 0u; slot < held_count; slot += 2u) {
+        let pair = picture[at + slot / 2u];
+        held[slot] = Key(bitcast<f32>(pair.x), pair.y);
+        if slot + 1u < held_count {
+            held[slot + 1u] = Key(bitcast<f32>(pair.z), pair.w);
+        }
+    }
+}
+
+fn store_held(position: vec2<i32>) {
+    let at = state_place(position) + 2u;
+    for (var slot = 0u; slot < held_count; slot += 2u) {
+        let a = held[slot];
+        var b = a;
+        if slot + 1u < held_count {
+            b = held[slot + 1u];
+        }
+        picture[at + slot / 2u] = vec4<u32>(bitcast<u32>(a.depth), a.place, bitcast<u32>(b.depth), b.place);
+    }
 }
 
 fn is_pixel_open() -> bool {
@@ -132,33 +168,37 @@ fn draw(
     let tile = group_number(group, groups);
     let tiles = frame.tiles.x * frame.tiles.y;
     if local == 0u {
+        range_of_tile = vec3<u32>(0u);
         if tile < tiles && has_ring(tile) {
-            range_of_tile = vec2<u32>(tile_starts[tile], tile_starts[tile + 1u]) & vec2<u32>(~RING_BIT);
-        } else {
-            range_of_tile = vec2<u32>(0u, 0u);
+            let all = vec2<u32>(tile_starts[tile], tile_starts[tile + 1u]) & vec2<u32>(~RING_BIT);
+            range_of_tile = all.xyy;
+            if SLICE > 0u {
+                // A tile's first pixel is in the picture, and knows of the others.
+                let first = min(all.x + load_state(pixel_of(tile, 0u)).looked_at, all.y);
+                range_of_tile = vec3<u32>(first, first + min(all.y - first, SLICE), all.y);
+            }
         }
     }
     let range = workgroupUniformLoad(&range_of_tile);
-    if range.x == range.y {
+    if range.x == range.z {
         return;
     }
+    let is_last_slice = range.y == range.z;
     let position = pixel_of(tile, local);
     let is_seen = is_in_picture(position);
     pixel = Pixel(vec3<f32>(0.0), 0.0);
     joint = no_joint();
     done = Done(0u, 0u, 0u, 0u);
-    var last = Key(0.0, 0u);
-    var is_first_run = true;
+    held_count = 0u;
+    var state = State(0.0, 0u, FIRST_RUN, 0u, joint, 0u);
     var is_open = is_seen;
     if is_seen {
         pixel = load_pixel(position);
         is_open = is_pixel_open();
-        if LAYERS {
-            let state = load_state(position);
-            is_first_run = state.run == FIRST_RUN;
+        if HAS_STATE {
+            state = load_state(position);
             is_open = is_open && state.run != LAST_RUN;
-            last = Key(state.depth, state.place);
-            if !is_first_run {
+            if state.run != FIRST_RUN || state.looked_at > 0u {
                 joint = state.joint;
             }
         }
@@ -173,10 +213,12 @@ fn draw(
     if workgroupUniformLoad(&is_any_open) == 0u {
         return;
     }
-    held_count = 0u;
-    var is_cut = false;
-    var first = range.x;
-    for (; first < range.y; first += BATCH) {
+    let before = begin_tile(tile, local);
+    if SLICE > 0u && is_open {
+        load_held(position, state.held_count);
+    }
+    let last = Key(state.depth, state.place);
+    for (var first = range.x; first < range.y; first += BATCH) {
         let count = min(BATCH, range.y - first);
         workgroupBarrier();
         if local < count {
@@ -191,7 +233,7 @@ fn draw(
                 let depth = 0.5 * (found.sample.depth.x + found.sample.depth.y);
                 let key = Key(depth, tile_items[first + slot]);
                 if LAYERS {
-                    hold_if_next(key, last, is_first_run);
+                    hold_if_next(key, last, state.run == FIRST_RUN);
                 } else {
                     // A window of HELD - 1, and one that is on its way.
                     hold(key);
@@ -204,24 +246,32 @@ fn draw(
                 done.most = max(done.most, held_count);
             }
         }
-        is_cut = is_cut || (is_open && slot < count);
     }
-    is_cut = is_cut || (is_open && first < range.y);
-    if is_open {
+    if is_open && is_last_slice {
         for (var slot = 0u; slot < held_count && is_pixel_open(); slot++) {
             draw_segment(held[slot].place, position);
         }
         // Fewer than there was room for: these were the last.
         is_open = LAYERS && is_pixel_open() && held_count == HELD;
         if is_open {
-            last = held[HELD - 1u];
+            state.depth = held[HELD - 1u].depth;
+            state.place = held[HELD - 1u].place;
+            state.run = NEXT_RUN;
         }
+        held_count = 0u;
     }
     if is_seen {
         store_pixel(position, pixel);
-        if LAYERS {
-            store_state(position, State(last.depth, last.place, select(LAST_RUN, NEXT_RUN, is_open), joint));
+        if HAS_STATE {
+            state.run = select(LAST_RUN, state.run, is_open);
+            state.looked_at = select(state.looked_at + range.y - range.x, 0u, is_last_slice);
+            state.joint = joint;
+            state.held_count = held_count;
+            store_state(position, state);
+        }
+        if SLICE > 0u && is_open && !is_last_slice {
+            store_held(position);
         }
     }
-    count_done(tile, local, done, is_open, is_cut);
+    count_done(tile, local, before, done, is_open, is_cut(range.z));
 }

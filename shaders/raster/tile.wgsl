@@ -73,11 +73,38 @@ fn blend(pixel: ptr<function, Pixel>, light: Light) {
     (*pixel).transmittance *= light.transmittance;
 }
 
+// Marks a tile as cut until `count_done` knows better, and gives its counts so far to the group's first invocation.
+//
+// Where a driver ends loops, some invocations leave a loop with barriers before others do, and a driver may then abandon those others where they are:
+// what they would have drawn and said is lost.
+fn begin_tile(tile: u32, local: u32) -> vec4<u32> {
+    var before = vec4<u32>(0u);
+    if local == 0u {
+        let place = frame.extent.x * frame.extent.y + tile;
+        before = picture[place];
+        picture[place] = before | vec4<u32>(0u, 0u, 0u, TILE_CUT);
+    }
+    return before;
+}
+
+// Whether the driver has ended a loop of this invocation before its end, or would end the next: then this one does not turn twice.
+//
+// - above_zero: a number that is not 0, and not known when this is compiled
+fn is_cut(above_zero: u32) -> bool {
+    let needed = 1u + min(above_zero, 1u);
+    var turns = 0u;
+    while turns < needed {
+        turns += 1u;
+    }
+    return turns < needed;
+}
+
 // Adds what was done to the tile's counts. All invocations of the group take part.
 //
+// - before: of `begin_tile`
 // - is_open: whether the pixel is to be run again
 // - is_cut: whether the driver ended a loop before its end
-fn count_done(tile: u32, local: u32, done: Done, is_open: bool, is_cut: bool) {
+fn count_done(tile: u32, local: u32, before: vec4<u32>, done: Done, is_open: bool, is_cut: bool) {
     atomicAdd(&fragments_of_tile, done.fragments);
     atomicAdd(&crossings_of_tile, done.crossings);
     atomicAdd(&sorted_of_tile, done.sorted);
@@ -85,14 +112,13 @@ fn count_done(tile: u32, local: u32, done: Done, is_open: bool, is_cut: bool) {
     atomicOr(&flags_of_tile, select(0u, TILE_OPEN, is_open) | select(0u, TILE_CUT, is_cut));
     workgroupBarrier();
     if local == 0u {
-        let place = frame.extent.x * frame.extent.y + tile;
-        let before = picture[place];
         let now = vec3<u32>(
             atomicLoad(&fragments_of_tile),
             atomicLoad(&crossings_of_tile),
             atomicLoad(&sorted_of_tile),
         );
         let most = max(before.w & ~(TILE_OPEN | TILE_CUT), atomicLoad(&most_of_tile));
+        let place = frame.extent.x * frame.extent.y + tile;
         picture[place] = vec4<u32>(before.xyz + now, most | (before.w & TILE_CUT) | atomicLoad(&flags_of_tile));
     }
 }

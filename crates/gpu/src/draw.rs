@@ -154,7 +154,8 @@ impl<'a> Drawing<'a> {
             return Err(GpuError::TrianglesCannotSort);
         }
         let size = [self.plan.view.width, self.plan.view.height];
-        let mut waiting = parts(size, renderer.gpu.largest_binding(), Target::largest_side(&renderer.gpu));
+        let state = sort.state(kept.slice(&renderer.gpu));
+        let mut waiting = parts(size, renderer.gpu.largest_binding(), Target::largest_side(&renderer.gpu), state);
         waiting.reverse();
         let mut image = LinearImage::transparent(size[0], size[1]);
         let mut counts = Counts { cells: u64::from(renderer.mesh.cell_count), cyclic, ..Counts::default() };
@@ -163,7 +164,7 @@ impl<'a> Drawing<'a> {
         while let Some(part) = waiting.pop() {
             let outcome = match self.draw_part(kept, &means, sort, part) {
                 // Fewer cells at a time make shorter loops.
-                Err(GpuError::LoopCut { .. }) if kept.halve_block() => {
+                Err(GpuError::LoopCut { .. }) if kept.shorten_loops(&renderer.gpu) => {
                     waiting.push(part);
                     continue;
                 }

@@ -12,7 +12,7 @@ use crate::kernel::Named;
 use crate::kernels::Variant;
 use crate::mesh::MeshPart;
 use crate::part::picture_bytes;
-use crate::sorting::{DeviceOrder, HELD_IN_LAYERS, InPixels, Source};
+use crate::sorting::{DeviceOrder, InPixels, Source};
 use crate::stopwatch::Laps;
 use crate::triangles::BlockToDraw;
 use crate::view::{Part, frame_of};
@@ -32,6 +32,7 @@ impl Drawing<'_> {
         let renderer = self.renderer;
         let (gpu, mesh) = (&renderer.gpu, &renderer.mesh);
         kept.prepare(self, means, sort, part)?;
+        let slice = kept.slice(gpu);
         let Some(memory) = kept.memory() else {
             return Err(GpuError::defect(gpu, "memory that was prepared is not there"));
         };
@@ -58,7 +59,7 @@ impl Drawing<'_> {
             match self.path {
                 Path::Compute => {
                     self.bin(&mut encoder, &mut laps, &memory, &resources, sort)?;
-                    self.rasterize(&mut encoder, &mut laps, means, &resources, sort, frame.tiles)?;
+                    self.rasterize(&mut encoder, &mut laps, means, &resources, (sort, slice), frame.tiles)?;
                 }
                 Path::Triangles(_) => {
                     let is_ends = [number == 0, number + 1 == blocks.len()];
@@ -71,7 +72,7 @@ impl Drawing<'_> {
         while outcome.is_open() {
             let mut encoder = gpu.encoder("sort on");
             let mut laps = Laps::new(renderer.stopwatch.as_ref());
-            self.run_sorted(&mut encoder, &mut laps, means, &resources, sort, frame.tiles)?;
+            self.run_sorted(&mut encoder, &mut laps, means, &resources, (sort, slice), frame.tiles)?;
             outcome = self.read(memory, encoder, laps, part)?.after(outcome);
         }
         Ok(outcome)
@@ -165,13 +166,15 @@ impl Drawing<'_> {
     }
 
     /// Tiles, by compute programs.
+    ///
+    /// - `slice`: cells of a tile that a run of pixels that sort looks at; 0 for all
     fn rasterize(
         &self,
         encoder: &mut CommandEncoder,
         laps: &mut Laps<'_>,
         means: &Means,
         resources: &[Named<'_>],
-        sort: InPixels,
+        (sort, slice): (InPixels, u32),
         tiles: [u32; 2],
     ) -> Result<(), GpuError> {
         let renderer = self.renderer;
@@ -181,7 +184,7 @@ impl Drawing<'_> {
             let kernel = renderer.kernels.get(gpu, file, "draw", &variant)?;
             kernel.run(&mut pass, &kernel.bind(gpu, resources), tiles[0] * tiles[1]);
         }
-        self.run_sorted(encoder, laps, means, resources, sort, tiles)
+        self.run_sorted(encoder, laps, means, resources, (sort, slice), tiles)
     }
 
     /// Tiles whose pixels sort by themselves: some runs of them.
@@ -191,14 +194,14 @@ impl Drawing<'_> {
         laps: &mut Laps<'_>,
         means: &Means,
         resources: &[Named<'_>],
-        sort: InPixels,
+        (sort, slice): (InPixels, u32),
         tiles: [u32; 2],
     ) -> Result<(), GpuError> {
-        let Some((file, variant)) = sorted(means, sort) else { return Ok(()) };
+        let Some((file, variant)) = sorted(means, sort, slice) else { return Ok(()) };
         let gpu = &self.renderer.gpu;
         let kernel = self.renderer.kernels.get(gpu, file, "draw", &variant)?;
         let group = kernel.bind(gpu, resources);
-        let runs = if matches!(sort, InPixels::Window(_)) { 1 } else { RUNS_AT_ONCE };
+        let runs = if matches!(sort, InPixels::Window(_)) && slice == 0 { 1 } else { RUNS_AT_ONCE };
         let mut pass = begin(encoder, laps, Stage::Rasterize);
         for _ in 0..runs {
             kernel.run(&mut pass, &group, tiles[0] * tiles[1]);
@@ -292,15 +295,17 @@ pub(crate) fn ordered(means: &Means, sort: InPixels) -> Option<Rasterizer> {
 }
 
 /// What draws tiles whose pixels sort, if any do.
-pub(crate) fn sorted(means: &Means, sort: InPixels) -> Option<Rasterizer> {
-    let (rings, layers, held) = match sort {
-        InPixels::Nothing => return None,
-        InPixels::Rings => ("raster/rings.wgsl", true, HELD_IN_LAYERS),
-        InPixels::All => ("raster/every_tile.wgsl", true, HELD_IN_LAYERS),
-        // One more is on its way.
-        InPixels::Window(window) => ("raster/every_tile.wgsl", false, window + 1),
-    };
-    let constants = [("LAYERS", Constant::Bool(layers)), ("HELD", Constant::U32(held))];
+///
+/// - `slice`: cells of a tile that a run looks at; 0 for all
+pub(crate) fn sorted(means: &Means, sort: InPixels, slice: u32) -> Option<Rasterizer> {
+    let held = sort.held()?;
+    let rings = if sort == InPixels::Rings { "raster/rings.wgsl" } else { "raster/every_tile.wgsl" };
+    let constants = [
+        ("LAYERS", Constant::Bool(!matches!(sort, InPixels::Window(_)))),
+        ("HELD", Constant::U32(held)),
+        ("SLICE", Constant::U32(slice)),
+        ("STATE", Constant::U32(sort.state(slice))),
+    ];
     Some(("raster/sorted.wgsl", means.variant.with_slots(&[("rings", rings)]).with_constants(&constants)))
 }
 

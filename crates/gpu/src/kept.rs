@@ -24,7 +24,7 @@ use crate::sorting::{DeviceOrder, InPixels, MadeOrder, Source};
 use crate::targets::{Display, Target};
 use crate::triangles::{LightAt, TrianglePath};
 use crate::view::Part;
-use crate::work::{BlockPlan, LEAST_IN_BLOCK, Work, most_in_block};
+use crate::work::{BlockPlan, LEAST_IN_BLOCK, Work, half_slice, most_in_block, most_in_slice};
 use crate::{Gpu, GpuError};
 
 /// Transfer functions whose lookups are remembered, so that going back and forth between two costs nothing.
@@ -60,6 +60,8 @@ pub(crate) struct Kept {
     display: Option<(TextureFormat, Display)>,
     /// How the order is cut, and whether all cells must be together.
     plan: Option<(BlockPlan, bool)>,
+    /// Cells of a tile that a run of pixels that sort looks at, once loops were ended.
+    pub(crate) slice: Option<u32>,
     work: Option<Work>,
     tiles: Option<TileMemory>,
 }
@@ -348,10 +350,11 @@ impl Kept {
             });
         }
         self.plan = Some((plan, whole));
-        if !self.work.as_ref().is_some_and(|work| work.fits(plan.cells, part, whole)) {
+        let state = sort.state(self.slice(gpu));
+        if !self.work.as_ref().is_some_and(|work| work.fits(plan.cells, part, state)) {
             // What is bound to it goes with it.
             (self.work, self.tiles) = (None, None);
-            self.work = Some(Work::new(gpu, plan.cells, part, whole));
+            self.work = Some(Work::new(gpu, plan.cells, part, state));
         }
         let (Some(order), Some(work)) = (&self.order, &self.work) else { return Ok(()) };
         match drawing.path {
@@ -455,10 +458,20 @@ impl Kept {
         Ok(())
     }
 
-    /// Takes half of the cells at a time; false if they must be together, or are few.
-    pub(crate) fn halve_block(&mut self) -> bool {
+    /// Cells of a tile that a run of pixels that sort looks at; 0 for all.
+    pub(crate) fn slice(&self, gpu: &Gpu) -> u32 {
+        self.slice.unwrap_or_else(|| most_in_slice(gpu))
+    }
+
+    /// Takes half of the cells at a time, or where they must be together looks at half as many in a run; false if they are few.
+    pub(crate) fn shorten_loops(&mut self, gpu: &Gpu) -> bool {
+        let half = half_slice(self.slice(gpu));
         let Some((plan, whole)) = &mut self.plan else { return false };
-        let is_possible = !*whole && plan.cells > LEAST_IN_BLOCK;
+        if *whole {
+            self.slice = half.or(self.slice);
+            return half.is_some();
+        }
+        let is_possible = plan.cells > LEAST_IN_BLOCK;
         if is_possible {
             plan.cells = plan.cells.div_ceil(2);
         }

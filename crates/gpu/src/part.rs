@@ -8,9 +8,11 @@ use crate::view::Part;
 const BYTES_PER_PIXEL: u64 = 16;
 
 /// Bytes of the buffer `picture` for a part whose pixels may sort: what they have to know from run to run comes last.
-pub(crate) fn sorted_picture_bytes(part: Part) -> u64 {
+///
+/// - `state`: what that is for a pixel, in pixels
+pub(crate) fn sorted_picture_bytes(part: Part, state: u32) -> u64 {
     let [width, height] = part.extent.map(u64::from);
-    picture_bytes(part) + 2 * BYTES_PER_PIXEL * width * height
+    picture_bytes(part) + u64::from(state) * BYTES_PER_PIXEL * width * height
 }
 
 /// Bytes of the buffer `picture` for a part: its pixels and the counts of its tiles.
@@ -24,12 +26,15 @@ pub(crate) fn picture_bytes(part: Part) -> u64 {
 ///
 /// - `limit`: bytes that one may take
 /// - `side`: pixels that a side may have; a tile's at least
-pub(crate) fn parts(size: [u32; 2], limit: u64, side: u32) -> Vec<Part> {
+/// - `state`: as in [`sorted_picture_bytes`]
+pub(crate) fn parts(size: [u32; 2], limit: u64, side: u32, state: u32) -> Vec<Part> {
     let mut waiting = vec![Part { origin: [0, 0], extent: size }];
     let mut parts = Vec::new();
     while let Some(part) = waiting.pop() {
         match halves(part) {
-            Some(halves) if sorted_picture_bytes(part) > limit || part.extent.iter().any(|extent| *extent > side) => {
+            Some(halves)
+                if sorted_picture_bytes(part, state) > limit || part.extent.iter().any(|extent| *extent > side) =>
+            {
                 waiting.extend(halves.into_iter().rev())
             }
             _ => parts.push(part),
@@ -62,9 +67,9 @@ mod tests {
         for (size, limit) in [([70, 40], u64::MAX), ([70, 40], 19000), ([1, 1], 0), ([300, 17], 15000), ([33, 500], 0)]
         {
             let mut covered = vec![0; (size[0] * size[1]) as usize];
-            let parts = parts(size, limit, 200);
+            let parts = parts(size, limit, 200, 2);
             for part in &parts {
-                assert!(sorted_picture_bytes(*part) <= limit || halves(*part).is_none());
+                assert!(sorted_picture_bytes(*part, 2) <= limit || halves(*part).is_none());
                 assert!(part.extent.iter().all(|extent| *extent <= 200));
                 for y in part.origin[1]..part.origin[1] + part.extent[1] {
                     for x in part.origin[0]..part.origin[0] + part.extent[0] {
@@ -74,7 +79,8 @@ mod tests {
             }
             assert!(covered.iter().all(|count| *count == 1), "{size:?} {parts:?}");
         }
-        assert_eq!(parts([512, 512], 1 << 27, 512).len(), 1);
-        assert_eq!(parts([512, 512], 1 << 27, 511).len(), 4);
+        assert_eq!(parts([512, 512], 1 << 27, 512, 2).len(), 1);
+        assert_eq!(parts([512, 512], 1 << 27, 511, 2).len(), 4);
+        assert_eq!(parts([512, 512], 1 << 27, 512, 34).len(), 2);
     }
 }

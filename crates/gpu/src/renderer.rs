@@ -143,6 +143,12 @@ impl GpuRenderer {
         kept.buffers(self.kernels.count())
     }
 
+    /// Cells of a tile that pixels that sort look at in a run from now on; 0 for all.
+    #[cfg(test)]
+    pub(crate) fn set_slice(&self, slice: u32) {
+        self.kept.lock().unwrap_or_else(PoisonError::into_inner).slice = Some(slice);
+    }
+
     /// The mesh as visibility orders see it.
     pub(crate) fn cells(&self) -> Cells<'_> {
         Cells { positions: &self.positions, tetrahedra: &self.tetrahedra }

@@ -17,8 +17,8 @@ use crate::{AdapterChoice, Gpu, GpuError, GpuRenderer};
 /// Cubes of five or six tetrahedra along a side of the mesh.
 const SIDE: usize = 12;
 
-fn field() -> (Decomposition, Vec<f64>) {
-    let dataset = rings_sample(SIDE);
+fn field(side: usize) -> (Decomposition, Vec<f64>) {
+    let dataset = rings_sample(side);
     let ArrayValues::F64(values) = &dataset.point_arrays[0].values else { panic!("the sample has doubles") };
     let scalars = values.clone();
     (decompose(&dataset).unwrap(), scalars)
@@ -38,7 +38,11 @@ fn plan(size: u32) -> Plan {
 }
 
 fn renderer(gpu: &Arc<Gpu>) -> GpuRenderer {
-    let (decomposition, scalars) = field();
+    renderer_of(gpu, SIDE)
+}
+
+fn renderer_of(gpu: &Arc<Gpu>, side: usize) -> GpuRenderer {
+    let (decomposition, scalars) = field(side);
     GpuRenderer::new(Arc::clone(gpu), &decomposition.mesh, &scalars, Arc::new(MeshVisibility::new())).unwrap()
 }
 
@@ -95,6 +99,50 @@ fn pixels_that_sort_agree_with_a_right_order() {
     assert_eq!(refused.unwrap_err(), GpuError::WindowTooLarge { window: 64, most: 63 });
 }
 
+/// Drivers that are programs for processors end the loops of an invocation after 65536 turns together, which the middle tile of this picture takes.
+#[test]
+fn a_loop_that_a_driver_ends_makes_no_wrong_picture() {
+    let Some(gpu) = gpu() else { return };
+    let renderer = renderer_of(&gpu, 24);
+    let expected = renderer.render(&plan(48), &Silent).unwrap();
+    let sorted = |window| Plan { order: OrderMethod::KBuffer { window }, ..plan(48) };
+    for window in [24, 63] {
+        let drawn = renderer.render(&sorted(window), &Silent).unwrap();
+        assert!(largest(&expected, &drawn) <= 2e-6, "{window}: {:e}", largest(&expected, &drawn));
+    }
+    // All cells in one run: there is no remedy then.
+    renderer.set_slice(0);
+    match renderer.render(&sorted(24), &Silent) {
+        Ok(drawn) => assert!(largest(&expected, &drawn) <= 2e-6, "{:e}", largest(&expected, &drawn)),
+        Err(error) => assert!(matches!(error, GpuError::LoopCut { .. }), "{error}"),
+    }
+}
+
+#[test]
+fn pixels_that_sort_draw_the_same_in_slices() {
+    let Some(gpu) = gpu() else { return };
+    // Some hundreds of cells a tile: many runs, that take little time.
+    let renderer = renderer_of(&gpu, 6);
+    let surface =
+        Isosurface { value: 0.2, color: [1.0; 3], back_color: [1.0; 3], opacity: 0.5, shading: SurfaceShading::None };
+    let surfaces = Isosurfaces::new(vec![surface]).unwrap();
+    let isosurfaces = Some(IsosurfacePlan { surfaces, method: IsosurfaceMethod::Exact });
+    for order in [OrderMethod::PerPixel, OrderMethod::KBuffer { window: 6 }] {
+        for isosurfaces in [None, isosurfaces.clone()] {
+            // Three tiles that are not whole.
+            let plan = Plan { order, isosurfaces, ..plan(20) };
+            let [whole, many, few] = [0, 64, 200].map(|slice| {
+                renderer.set_slice(slice);
+                renderer.render(&plan, &Silent).unwrap()
+            });
+            assert!(whole.image.pixel(10, 10)[3] > 0.2);
+            assert_eq!(whole.image, many.image, "{order}");
+            assert_eq!(whole.image, few.image, "{order}");
+            assert_eq!(whole.counts, many.counts, "{order}");
+        }
+    }
+}
+
 #[test]
 fn a_lost_device_is_an_error_that_names_the_frame() {
     if gpu().is_none() {
@@ -143,7 +191,7 @@ fn a_plan_pays_for_what_it_asks_for() {
 fn a_tetrahedron_takes_20_bytes_and_its_order_the_rest() {
     let Some(gpu) = gpu() else { return };
     let renderer = renderer(&gpu);
-    let (decomposition, _) = field();
+    let (decomposition, _) = field(SIDE);
     let cells = decomposition.mesh.tetrahedra().len() as u64;
     let points = decomposition.mesh.positions().len() as u64;
     let bytes = |plan: &Plan, role| renderer.render(plan, &Silent).unwrap().device.unwrap().bytes(role);

@@ -44,7 +44,7 @@ impl Drawing<'_> {
         add(BufferRole::Lookup, "isosurfaces and light", means.effects.bytes());
         let pipelines = match self.path {
             Path::Compute => {
-                let programs = ordered(means, sort).into_iter().chain(sorted(means, sort));
+                let programs = ordered(means, sort).into_iter().chain(sorted(means, sort, kept.slice(&renderer.gpu)));
                 let described = |(file, variant): (&str, Variant)| match renderer.kernels.get(
                     &renderer.gpu,
                     file,

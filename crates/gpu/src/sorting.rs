@@ -63,6 +63,21 @@ impl InPixels {
             PixelSort::None => Self::Nothing,
         }
     }
+
+    /// Segments that a pixel holds back; `None` if none sorts.
+    pub(crate) fn held(self) -> Option<u32> {
+        match self {
+            Self::Nothing => None,
+            Self::Rings | Self::All => Some(HELD_IN_LAYERS),
+            // One more is on its way.
+            Self::Window(window) => Some(window + 1),
+        }
+    }
+
+    /// What a pixel has to know from run to run, in pixels: where it was, and in slices also the segments that it holds back, two in one.
+    pub(crate) fn state(self, slice: u32) -> u32 {
+        self.held().map_or(0, |held| if slice > 0 { 2 + held.div_ceil(2) } else { 2 })
+    }
 }
 
 /// A permutation that was made on the CPU, on the device.

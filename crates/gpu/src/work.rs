@@ -15,6 +15,11 @@ use crate::view::Part;
 pub(crate) const MOST_IN_BLOCK: u32 = 1 << 22;
 /// The same for drivers that are programs for processors: Mesa's ends an invocation's loops after 65536 turns together, without a word.
 const MOST_IN_SOFTWARE: u32 = 1 << 14;
+/// Cells of a tile that a run of pixels that sort looks at with such drivers: a turn for each is the least, and how many more there are depends on
+/// window and shading, so that it is halved where loops are ended all the same.
+const MOST_IN_SLICE: u32 = 1 << 13;
+/// Fewest: as many as a group sets up at once.
+const LEAST_IN_SLICE: u32 = 1 << 6;
 /// Blocks of an order whose cells are blended in 16 bits: each is added up in 32, so that few layers round in 16.
 const BLOCKS_OF_16_BITS: u32 = 64;
 
@@ -28,6 +33,16 @@ pub(crate) fn most_in_block(gpu: &Gpu, path: Path, cells: u32) -> u32 {
         Path::Triangles(TargetBits::Sixteen) => most.min(cells.div_ceil(BLOCKS_OF_16_BITS).max(LEAST_IN_BLOCK)),
         _ => most,
     }
+}
+
+/// Most cells of a tile that a run of pixels that sort looks at on a device; 0 for all of them.
+pub(crate) fn most_in_slice(gpu: &Gpu) -> u32 {
+    if gpu.description().is_software() { MOST_IN_SLICE } else { 0 }
+}
+
+/// Half of that; `None` if that is few, or if all are looked at.
+pub(crate) fn half_slice(slice: u32) -> Option<u32> {
+    (slice > LEAST_IN_SLICE).then_some(slice / 2)
 }
 
 /// Fewest: blocks of fewer cells cost more than the picture.
@@ -79,18 +94,17 @@ pub(crate) struct Work {
     pub(crate) read_back: Buffer,
     cells: u32,
     part: Part,
-    whole: bool,
+    state: u32,
 }
 
 impl Work {
     /// - `cells`: of a block
-    /// - `whole`: whether pixels sort
-    pub(crate) fn new(gpu: &Gpu, cells: u32, part: Part, whole: bool) -> Self {
-        let state_and_picture = if whole { sorted_picture_bytes(part) } else { picture_bytes(part) };
+    /// - `state`: what a pixel that sorts has to know from run to run, in pixels
+    pub(crate) fn new(gpu: &Gpu, cells: u32, part: Part, state: u32) -> Self {
         let extra = (TOTALS * 4) as u64 + DeviceStopwatch::BYTES;
         Self {
             drawn: gpu.storage("drawn", u64::from(cells) * BYTES_PER_CELL),
-            picture: gpu.storage("picture", state_and_picture),
+            picture: gpu.storage("picture", sorted_picture_bytes(part, state)),
             read_back: gpu.buffer(
                 "read-back",
                 picture_bytes(part) + extra,
@@ -98,15 +112,15 @@ impl Work {
             ),
             cells,
             part,
-            whole,
+            state,
         }
     }
 
     /// Whether it has room.
     ///
     /// Its picture is for parts of one size: what pixels have to know comes right behind.
-    pub(crate) fn fits(&self, cells: u32, part: Part, whole: bool) -> bool {
-        self.cells >= cells && self.part.extent == part.extent && self.whole == whole
+    pub(crate) fn fits(&self, cells: u32, part: Part, state: u32) -> bool {
+        self.cells >= cells && self.part.extent == part.extent && self.state == state
     }
 
     /// Width and height of its picture.
