@@ -125,7 +125,7 @@ fn blank_pictures_say_why_before_and_after() {
     for (options, parts) in [
         (
             &["--extinction", "7:0; 8:1", "--color", "7:1,1,1"][..],
-            &["field goes from 0 to 4", "from 7 to 8, outside of them"][..],
+            &["field goes from 0 to 4", "from 7 to 8, and the field lies outside of them"][..],
         ),
         (&["--extinction", "0:0; 4:0"], &["the extinction is 0", "from 0 to 4"]),
         (&["--extinction", "0:1e-4"], &["too small", "under one gray level"]),
