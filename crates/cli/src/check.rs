@@ -13,7 +13,7 @@ use tetrascope::{
 use crate::Failure;
 use crate::args::CheckArgs;
 use crate::progress::Bar;
-use crate::render::{check_target, override_camera, scene_of_inputs, wrong_scene};
+use crate::render::{check_target, scene_as_seen, wrong_scene};
 use crate::report::{line, object, warning};
 use crate::scene_paths::is_scene;
 
@@ -42,14 +42,7 @@ pub(crate) fn run(args: &CheckArgs) -> Result<(), Failure> {
 
 /// Judges everything, telling each part as soon as it is known; gives the same for machines.
 fn check(args: &CheckArgs, bar: &Bar) -> Result<Value, Failure> {
-    let (mut scene, base_dir) = scene_of_inputs(&args.input)?;
-    if args.field.is_some() {
-        scene.mesh.field.clone_from(&args.field);
-    }
-    override_camera(&mut scene.camera, &args.camera);
-    if let Some((width, height)) = args.size {
-        (scene.image.width, scene.image.height) = (width, height);
-    }
+    let (mut scene, base_dir) = scene_as_seen(&args.input, args.field.as_ref(), &args.camera, args.size)?;
     // Orders are what is judged: the scene's own, and what goes with it, is not looked at.
     scene.quality.replace_backend(Choice::Named(Backend::Cpu));
     scene.quality.order = Choice::Auto;

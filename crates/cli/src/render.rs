@@ -200,7 +200,7 @@ impl SceneArgs {
 }
 
 /// A scene file with its folder, or a scene of nothing but a mesh.
-pub(crate) fn scene_of_inputs(inputs: &[PathBuf]) -> Result<(SceneFile, PathBuf), Failure> {
+fn scene_of_inputs(inputs: &[PathBuf]) -> Result<(SceneFile, PathBuf), Failure> {
     match inputs {
         [scene] if is_scene(scene) => Ok((scene_paths::read(scene)?, folder_of(scene).to_owned())),
         [mesh] => Ok((SceneFile::of_mesh(mesh), PathBuf::new())),
@@ -216,13 +216,29 @@ pub(crate) fn scene_of_inputs(inputs: &[PathBuf]) -> Result<(SceneFile, PathBuf)
     }
 }
 
+/// The same with the field, the camera and the size that options say.
+pub(crate) fn scene_as_seen(
+    inputs: &[PathBuf],
+    field: Option<&String>,
+    camera: &CameraArgs,
+    size: Option<(u32, u32)>,
+) -> Result<(SceneFile, PathBuf), Failure> {
+    let (mut scene, base_dir) = scene_of_inputs(inputs)?;
+    set_some(&mut scene.mesh.field, field);
+    override_camera(&mut scene.camera, camera);
+    if let Some((width, height)) = size {
+        (scene.image.width, scene.image.height) = (width, height);
+    }
+    Ok((scene, base_dir))
+}
+
 fn set_some<T: Clone>(slot: &mut Option<T>, value: Option<&T>) {
     if value.is_some() {
         *slot = value.cloned();
     }
 }
 
-pub(crate) fn override_camera(camera: &mut CameraSection, args: &CameraArgs) {
+fn override_camera(camera: &mut CameraSection, args: &CameraArgs) {
     set_some(&mut camera.eye, args.eye.as_ref());
     set_some(&mut camera.target, args.target.as_ref());
     set_some(&mut camera.up, args.up.as_ref());

@@ -9,7 +9,7 @@ use tetrascope_study::{Figure, Options, Outcome, Study, bytes_text, error_text, 
 use crate::Failure;
 use crate::args::StudyArgs;
 use crate::progress::Bar;
-use crate::render::{override_camera, scene_of_inputs, wrong_scene};
+use crate::render::{scene_as_seen, wrong_scene};
 use crate::report::{line, object, warning};
 use crate::scene_paths::is_scene;
 
@@ -44,14 +44,7 @@ fn failure(error: tetrascope_study::Error) -> Failure {
 }
 
 fn study(args: &StudyArgs, bar: &Bar) -> Result<Study, Failure> {
-    let (mut scene, base_dir) = scene_of_inputs(&args.input)?;
-    if args.field.is_some() {
-        scene.mesh.field.clone_from(&args.field);
-    }
-    override_camera(&mut scene.camera, &args.camera);
-    if let Some((width, height)) = args.size {
-        (scene.image.width, scene.image.height) = (width, height);
-    }
+    let (scene, base_dir) = scene_as_seen(&args.input, args.field.as_ref(), &args.camera, args.size)?;
 
     bar.step("reading and cutting into tetrahedra");
     let solution = scene.mesh.solution.as_ref().map(|path| resolve_path(&base_dir, path));
