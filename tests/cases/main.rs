@@ -10,6 +10,7 @@ mod cycles;
 mod errors;
 mod golden;
 mod gpu;
+mod hard;
 mod hostile;
 mod invariants;
 mod isosurfaces;

@@ -43,6 +43,7 @@ pub use picture::{
     write_image, write_png,
 };
 pub use read::{Loaded, MeshReader, Source};
+pub use vtk::write_vtu;
 
 /// Compiles the example of the README.
 #[cfg(doctest)]

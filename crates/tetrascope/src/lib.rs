@@ -59,7 +59,7 @@ pub use tetrascope_integrate::{
 };
 pub use tetrascope_io::{
     IoError, Loaded, PictureFile, PngImage, encode_png, make_folder, read_exr, read_heights, read_mesh, read_picture,
-    read_png, readers, write_bytes, write_exr, write_heights, write_image, write_png,
+    read_png, readers, write_bytes, write_exr, write_heights, write_image, write_png, write_vtu,
 };
 pub use tetrascope_mesh::{
     ArrayValues, CellKind, Cells, ChordLengths, DataArray, Dataset, Decomposition, MeshError, StructuredBlock, TetMesh,

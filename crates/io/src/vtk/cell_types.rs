@@ -38,6 +38,15 @@ pub(super) fn kind_of(number: i64) -> Option<CellKind> {
     })
 }
 
+/// The number that [`kind_of`] takes for a kind; nothing for polyhedra and for what several numbers stand for.
+pub(super) fn number_of(kind: CellKind) -> Option<u8> {
+    match kind {
+        CellKind::Polyhedron | CellKind::Flat => None,
+        CellKind::Other(number) => Some(number),
+        _ => (10..=33).find(|&number| kind_of(number.into()) == Some(kind)),
+    }
+}
+
 /// How many points a cell of this kind has; nothing where the number varies or is not known.
 pub(super) fn point_count_of(kind: CellKind) -> Option<usize> {
     Some(match kind {
@@ -81,6 +90,9 @@ mod tests {
         ] {
             assert_eq!(kind_of(number), Some(kind), "type {number}");
             assert_eq!(point_count_of(kind), points, "type {number}");
+            if kind != CellKind::Flat && kind != CellKind::Polyhedron {
+                assert_eq!(number_of(kind).map(i64::from), Some(number));
+            }
         }
         assert_eq!(kind_of(256), None);
         assert_eq!(kind_of(-1), None);

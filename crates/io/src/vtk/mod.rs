@@ -1,7 +1,7 @@
 //! The readers of VTK's unstructured grids: legacy files (`.vtk`) and XML files (`.vtu`).
 //!
 //! Both hand the same three things to the same code: numbers of a declared type ([`scalars`]), cells as rows of point
-//! indices ([`cells`]) and arrays with names ([`named`]). What differs is how each finds them in its file.
+//! indices ([`cells`]) and arrays with names ([`named`]). What differs is how each finds them in its file. [`write_vtu`] writes the second.
 
 mod cell_types;
 mod cells;
@@ -9,6 +9,7 @@ mod legacy;
 mod named;
 mod scalars;
 mod vtu;
+mod write;
 
 #[cfg(test)]
 mod fuzz_tests;
@@ -23,6 +24,7 @@ mod test_support;
 
 pub(crate) use legacy::LegacyVtk;
 pub(crate) use vtu::VtuReader;
+pub use write::write_vtu;
 
 /// The reader of legacy files.
 pub(crate) static LEGACY: LegacyVtk = LegacyVtk;

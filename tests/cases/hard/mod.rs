@@ -1,0 +1,29 @@
+//! The hard cases of `docs/hard-cases.md`, case by case, drawn in every way.
+
+mod order;
+
+use tetrascope_tests::hard::{HardCase, judge, named};
+use tetrascope_tests::ways::Way;
+
+/// Draws every scene of a case in every way, prints the largest of each figure, and fails with all that is wrong.
+fn check(name: &str) {
+    let case: HardCase = named(name).unwrap_or_else(|| panic!("no hard case is named {name}"));
+    let ways = Way::here(&format!("hard case {name}"));
+    let mut failures = Vec::new();
+    for hard in (case.scenes)() {
+        for found in judge(&hard, &ways) {
+            let shown = |figure: Option<f64>| figure.map_or("-".to_owned(), |f| format!("{f:.1e}"));
+            println!(
+                "{name}, {}, {}: chord {}, crack {}, light {:.1e}{}",
+                hard.place,
+                found.way,
+                shown(found.chord),
+                shown(found.crack),
+                found.light,
+                found.refused.as_ref().map_or(String::new(), |words| format!(", refused: {words}"))
+            );
+            failures.extend(found.failures.iter().map(|f| format!("{}, {}: {f}", hard.place, found.way)));
+        }
+    }
+    assert!(failures.is_empty(), "{name}: {failures:#?}");
+}

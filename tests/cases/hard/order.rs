@@ -1,0 +1,8 @@
+//! Hard cases of order.
+
+use super::check;
+
+#[test]
+fn hard_cycles() {
+    check("cycles");
+}

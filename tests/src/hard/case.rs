@@ -1,0 +1,136 @@
+//! What a hard case is.
+
+use std::fmt;
+use std::sync::Arc;
+
+use glam::DVec3;
+use tetrascope::mesh::{ArrayValues, CellKind, Cells, DataArray, Dataset, UnstructuredCells};
+use tetrascope::view::Ray;
+use tetrascope::{Camera, CameraSection, Projection, ProjectionName, SceneFile, Volume};
+
+/// A section of the document.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[expect(missing_docs, reason = "the names are the sections")]
+pub enum Group {
+    Classification,
+    Eye,
+    Pixels,
+    Optics,
+    Numbers,
+    Mesh,
+    Order,
+}
+
+/// One hard case: scenes that are hard for the same reason.
+#[derive(Clone, Copy, Debug)]
+pub struct HardCase {
+    /// A heading of the document and the name of its picture: words joined by hyphens.
+    pub name: &'static str,
+    /// Where in the document.
+    pub group: Group,
+    /// Makes its scenes. The first one is drawn for the document and given to other renderers.
+    pub scenes: fn() -> Vec<HardScene>,
+}
+
+/// A scene with what is known of it.
+#[derive(Clone, Debug)]
+pub struct HardScene {
+    /// Which of the case's scenes.
+    pub place: String,
+    /// The mesh.
+    pub volume: Arc<Volume>,
+    /// From where, and of what optics. Methods and back end are left open.
+    pub scene: SceneFile,
+    /// What its pictures are held against.
+    pub truth: Truth,
+    /// What the scene's own picture may differ by from the truth in any channel, on the CPU; see [`judge()`](super::judge()).
+    pub within: f64,
+    /// The same for a GPU: its f32 has no f64 beside it.
+    pub within_gpu: f64,
+    /// Words that the user must be told, where a limit is reached.
+    pub says: Option<&'static str>,
+}
+
+/// The light of a ray: linear R, G, B times opacity, opacity. `None` where a ray runs along an edge.
+pub type Light = Arc<dyn Fn(&Ray) -> Option<[f64; 4]> + Send + Sync>;
+
+/// What is known of a scene without drawing it.
+#[derive(Clone)]
+pub enum Truth {
+    /// The cells fill what these triangles bound, once: chords of rays are known. Triangles in world coordinates, normals outwards. The scene's
+    /// own picture is held against the reference.
+    Outline(Vec<[DVec3; 3]>),
+    /// Nothing but what the renderer in f64 draws: cells lie in one another.
+    Reference,
+    /// The light of every ray in closed form.
+    Light(Light),
+}
+
+impl fmt::Debug for Truth {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Outline(triangles) => write!(f, "Outline of {} triangles", triangles.len()),
+            Self::Reference => f.write_str("Reference"),
+            Self::Light(_) => f.write_str("Light"),
+        }
+    }
+}
+
+impl HardScene {
+    /// A scene whose cells fill their boundary, which is taken from the mesh itself, with the usual limits.
+    pub fn partition(place: impl Into<String>, volume: Volume, scene: SceneFile) -> Self {
+        let outline = crate::chords::boundary(&volume.decomposition.mesh);
+        Self::new(place, volume, scene, Truth::Outline(outline))
+    }
+
+    /// A scene with the usual limits: 1e-5 on the CPU, 2e-5 on a GPU.
+    pub fn new(place: impl Into<String>, volume: Volume, scene: SceneFile, truth: Truth) -> Self {
+        Self { place: place.into(), volume: Arc::new(volume), scene, truth, within: 1e-5, within_gpu: 2e-5, says: None }
+    }
+}
+
+/// A mesh of tetrahedra with one scalar a point, named "field".
+///
+/// # Panics
+/// If nothing in it has a volume.
+pub fn volume_of(points: &[DVec3], tetrahedra: &[[u32; 4]], scalars: &[f64]) -> Volume {
+    let count = tetrahedra.len();
+    let dataset = Dataset {
+        points: points.to_vec(),
+        cells: Cells::Unstructured(UnstructuredCells {
+            kinds: vec![CellKind::Tetrahedron; count],
+            offsets: (0..=count).map(|cell| 4 * cell).collect(),
+            connectivity: tetrahedra.concat(),
+            polyhedra: Vec::new(),
+        }),
+        point_arrays: vec![DataArray {
+            name: "field".to_owned(),
+            components: 1,
+            values: ArrayValues::F64(scalars.to_vec()),
+        }],
+        cell_arrays: Vec::new(),
+    };
+    Volume::from_dataset(dataset, "hard case").expect("the case has cells")
+}
+
+/// A scene of this camera: so many pixels, colors and extinctions over the scalar as given.
+pub fn scene_of(camera: &Camera, size: [u32; 2], color: &[[f64; 4]], extinction: &[[f64; 2]]) -> SceneFile {
+    let mut scene = SceneFile::of_mesh("hard-case.vtu");
+    (scene.image.width, scene.image.height) = (size[0], size[1]);
+    scene.camera = CameraSection {
+        eye: Some(camera.eye.to_array()),
+        target: Some(camera.target.to_array()),
+        up: Some(camera.up.to_array()),
+        ..CameraSection::default()
+    };
+    match camera.projection {
+        Projection::Perspective { fov_y } => scene.camera.fov_y = Some(fov_y.to_degrees()),
+        Projection::Orthographic { height } => {
+            scene.camera.projection = ProjectionName::Orthographic;
+            scene.camera.height = Some(height);
+        }
+    }
+    scene.transfer.color = Some(color.to_vec());
+    scene.transfer.extinction = Some(extinction.to_vec());
+    scene
+}

@@ -1,0 +1,213 @@
+//! Draws a hard scene in every way and holds the pictures against what is known of it.
+
+use tetrascope::{LinearImage, SceneFile};
+use tetrascope::{OpticalModel, View, reference};
+
+use super::{HardScene, Truth};
+use crate::chords::chords;
+use crate::ways::{Drawn, Way};
+
+/// What chords may differ by, relative to themselves, or to a hundredth of the longest where they are shorter: at a silhouette a chord goes to
+/// 0, and a pixel's place is known to f32.
+pub const CHORD_LIMIT: f64 = 1e-5;
+/// What opacity may differ by from the plane of its neighbors.
+pub const CRACK_LIMIT: f64 = 1e-5;
+/// Share of the longest chord below which errors are relative to that.
+const SHORT: f64 = 1e-2;
+/// Optical depth of the longest chord in the picture that is looked at for cracks: opacities are neither 0 nor 1.
+const DEPTH: f64 = 2.0;
+
+/// What one way made of one scene.
+#[derive(Clone, Debug)]
+pub struct Finding {
+    /// Who drew it.
+    pub way: Way,
+    /// Largest relative error of a chord; `None` where chords are not known.
+    pub chord: Option<f64>,
+    /// Largest distance in opacity, with one extinction everywhere, from the plane of a pixel's neighbors, over what the true plane's curvature is.
+    pub crack: Option<f64>,
+    /// Largest difference of the scene's own picture from the truth, in any channel.
+    pub light: f64,
+    /// Why it does not draw the scene, in the words that the user reads.
+    pub refused: Option<String>,
+    /// What is beyond its limit, one sentence each; empty if all is well.
+    pub failures: Vec<String>,
+}
+
+/// Draws the scene in these ways.
+///
+/// Each way draws the scene as it is, and where chords are known a picture of one extinction. Every number must be finite, colors not negative,
+/// opacities from 0 to 1; on the CPU one and three threads must give the same bits.
+pub fn judge(hard: &HardScene, ways: &[Way]) -> Vec<Finding> {
+    let exact = Exact::of(hard);
+    ways.iter().map(|&way| finding(hard, way, &exact)).collect()
+}
+
+/// What the pictures are held against.
+struct Exact {
+    /// One chord a pixel, `None` at an edge.
+    chords: Option<Vec<Option<f64>>>,
+    /// The scene's own picture.
+    light: Vec<Option<[f64; 4]>>,
+    width: usize,
+}
+
+impl Exact {
+    fn of(hard: &HardScene) -> Self {
+        let view = view_of(hard);
+        let rays = || {
+            (0..view.height)
+                .flat_map(|y| (0..view.width).map(move |x| (x, y)))
+                .map(|(x, y)| view.ray(f64::from(x) + 0.5, f64::from(y) + 0.5))
+        };
+        let by_reference = || {
+            let image = Way::Reference.draw(&hard.volume, &hard.scene).expect("the reference draws every scene").image;
+            image.pixels().iter().map(|p| Some(p.map(f64::from))).collect()
+        };
+        let (chords, light) = match &hard.truth {
+            Truth::Outline(triangles) => (Some(chords(triangles, &view)), by_reference()),
+            Truth::Reference => (None, by_reference()),
+            Truth::Light(light) => (None, rays().map(|ray| light(&ray)).collect()),
+        };
+        Self { chords, light, width: view.width as usize }
+    }
+}
+
+fn view_of(hard: &HardScene) -> View {
+    let field = hard.volume.field(hard.scene.mesh.field.as_deref()).expect("hard scenes have a field");
+    let scene = hard.scene.complete(&field.facts).expect("hard scenes are complete").scene;
+    View::new(&scene.camera, scene.width, scene.height).expect("hard scenes have a good camera")
+}
+
+fn finding(hard: &HardScene, way: Way, exact: &Exact) -> Finding {
+    let mut found = Finding { way, chord: None, crack: None, light: 0.0, refused: None, failures: Vec::new() };
+    let Some(drawn) = draw(hard, &hard.scene, &mut found) else { return found };
+    check_words(hard, &drawn, &mut found);
+    check_threads(hard, &drawn.image, &mut found);
+    let within = if way.needs_gpu() { hard.within_gpu } else { hard.within };
+    let mut worst = (0.0, 0);
+    for (pixel, (drawn, known)) in drawn.image.pixels().iter().zip(&exact.light).enumerate() {
+        let Some(known) = known else { continue };
+        let difference = drawn
+            .iter()
+            .zip(known)
+            .map(|(d, k)| (f64::from(*d) - k).abs())
+            .fold(0.0_f64, |a, b| if b > a { b } else { a });
+        if difference > worst.0 {
+            worst = (difference, pixel);
+        }
+    }
+    found.light = worst.0;
+    if worst.0 > within {
+        let [x, y] = [worst.1 % exact.width, worst.1 / exact.width];
+        found.failures.push(format!("light is off by {:.2e} of {within:.0e} at ({x}, {y})", worst.0));
+    }
+    if let Some(chords) = &exact.chords {
+        check_chords(hard, chords, exact.width, &mut found);
+    }
+    found
+}
+
+/// The picture, if the way draws the scene; what is unsound about it is noted.
+fn draw(hard: &HardScene, scene: &SceneFile, found: &mut Finding) -> Option<Drawn> {
+    let drawn = match found.way.draw(&hard.volume, scene) {
+        Ok(drawn) => drawn,
+        Err(error) => {
+            if !found.way.needs_gpu() {
+                found.failures.push(format!("it is refused: {error}"));
+            }
+            found.refused = Some(error.to_string());
+            return None;
+        }
+    };
+    let unsound = drawn.image.pixels().iter().filter(|p| !is_sound(p)).count();
+    if unsound > 0 {
+        found.failures.push(format!("{unsound} pixels are not finite, negative or of an opacity beyond 1"));
+    }
+    Some(drawn)
+}
+
+/// Colors are finite and not negative, opacities from 0 to 1.
+pub fn is_sound(pixel: &[f32; 4]) -> bool {
+    pixel.iter().all(|c| c.is_finite() && *c >= 0.0) && pixel[3] <= 1.0
+}
+
+fn check_words(hard: &HardScene, drawn: &Drawn, found: &mut Finding) {
+    if let Some(words) = hard.says
+        && !drawn.warnings.iter().any(|warning| warning.contains(words))
+    {
+        found.failures.push(format!("no warning has the words \"{words}\": {:?}", drawn.warnings));
+    }
+}
+
+fn check_threads(hard: &HardScene, image: &LinearImage, found: &mut Finding) {
+    if found.way.needs_gpu() {
+        return;
+    }
+    for threads in [1, 3] {
+        match found.way.draw_on(&hard.volume, &hard.scene, threads) {
+            Ok(other) if other == *image => {}
+            Ok(_) => found.failures.push(format!("{threads} threads give other bits")),
+            Err(error) => found.failures.push(format!("{threads} threads: {error}")),
+        }
+    }
+}
+
+/// One extinction everywhere: each pixel's color tells its chord, to more digits than its opacity where that is near 1.
+fn check_chords(hard: &HardScene, chords: &[Option<f64>], width: usize, found: &mut Finding) {
+    let longest = chords.iter().flatten().copied().fold(0.0, f64::max);
+    if longest == 0.0 {
+        found.failures.push("no ray meets the mesh".to_owned());
+        return;
+    }
+    let extinction = DEPTH / longest;
+    let mut scene = hard.scene.clone();
+    scene.optics.model = OpticalModel::DensityEmitter;
+    scene.transfer.color = Some(vec![[0.0, 1.0, 1.0, 1.0]]);
+    scene.transfer.extinction = Some(vec![[0.0, extinction]]);
+    (scene.isosurface, scene.light) = (Vec::new(), None);
+    let Some(drawn) = draw(hard, &scene, found) else { return };
+    let pixels = drawn.image.pixels();
+
+    let mut chord_error = (0.0, 0);
+    for (pixel, chord) in chords.iter().enumerate() {
+        let Some(chord) = chord else { continue };
+        let drawn = -(-f64::from(pixels[pixel][0])).ln_1p() / extinction;
+        let error = (drawn - chord).abs() / chord.max(SHORT * longest);
+        if error.is_nan() || error > chord_error.0 {
+            chord_error = (error, pixel);
+        }
+    }
+    found.chord = Some(chord_error.0);
+    if chord_error.0.is_nan() || chord_error.0 > CHORD_LIMIT {
+        let [x, y] = [chord_error.1 % width, chord_error.1 / width];
+        found.failures.push(format!("a chord is off by {:.2e} of itself at ({x}, {y})", chord_error.0));
+    }
+
+    // What is drawn less what is true is flat, whatever the shape.
+    let residual = |pixel: usize| {
+        let chord = chords[pixel].filter(|&chord| chord > 0.0)?;
+        Some(f64::from(pixels[pixel][3]) + (-extinction * chord).exp_m1())
+    };
+    let mut crack = (0.0_f64, 0);
+    for pixel in width..pixels.len().saturating_sub(width) {
+        if pixel % width == 0 || pixel % width == width - 1 {
+            continue;
+        }
+        for step in [1, width] {
+            let Some(off) =
+                (|| Some((residual(pixel)? - 0.5 * (residual(pixel - step)? + residual(pixel + step)?)).abs()))()
+            else {
+                continue;
+            };
+            if off > crack.0 {
+                crack = (off, pixel);
+            }
+        }
+    }
+    found.crack = Some(crack.0);
+    if crack.0 > CRACK_LIMIT {
+        let [x, y] = [crack.1 % width, crack.1 / width];
+        found.failures.push(format!("opacity is {:.2e} from its neighbors' plane at ({x}, {y})", crack.0));
+    }
+}

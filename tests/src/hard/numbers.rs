@@ -1,0 +1,8 @@
+//! Hard cases: numbers.
+
+use super::HardCase;
+
+/// The cases of this group.
+pub(super) fn cases() -> Vec<HardCase> {
+    Vec::new()
+}

@@ -1,0 +1,38 @@
+//! Hard cases of order: cells that hide one another in a ring, and cells that hardly do not.
+
+use glam::DVec3;
+use tetrascope::{Camera, Projection};
+
+use super::case::{Group, HardCase, HardScene, scene_of, volume_of};
+
+/// The cases of this group.
+pub(super) fn cases() -> Vec<HardCase> {
+    vec![HardCase { name: "cycles", group: Group::Order, scenes: cycles }]
+}
+
+/// Three needles, each over the next: no order of whole cells is right.
+fn cycles() -> Vec<HardScene> {
+    vec![ring("a ring of three", 0.3)]
+}
+
+/// Three needles around a triangle; `rise` is how far each one's end lies above the next one's start.
+fn ring(place: &str, rise: f64) -> HardScene {
+    let (mut points, mut tetrahedra) = (Vec::new(), Vec::new());
+    for i in 0..3_u32 {
+        let turn = glam::DQuat::from_rotation_z(f64::from(i) * std::f64::consts::TAU / 3.0);
+        let first = points.len() as u32;
+        let corners = [[-1.2, -0.6, -rise], [-1.2, -0.4, -rise], [1.2, -0.5, rise - 0.1], [1.2, -0.5, rise + 0.1]];
+        points.extend(corners.map(|p| turn * DVec3::from(p)));
+        tetrahedra.push([0, 1, 2, 3].map(|corner| first + corner));
+    }
+    let scalars: Vec<f64> = (0..12).map(|i| f64::from(i / 4)).collect();
+    let camera = Camera {
+        eye: DVec3::new(0.0, 0.0, 5.0),
+        target: DVec3::ZERO,
+        up: DVec3::Y,
+        projection: Projection::Perspective { fov_y: 0.6 },
+    };
+    let color = [[0.0, 1.0, 0.1, 0.1], [1.0, 0.1, 1.0, 0.1], [2.0, 0.1, 0.1, 1.0]];
+    let scene = scene_of(&camera, [65, 61], &color, &[[0.0, 8.0]]);
+    HardScene::partition(place, volume_of(&points, &tetrahedra, &scalars), scene)
+}
