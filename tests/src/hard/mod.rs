@@ -14,7 +14,7 @@ mod order;
 mod pixels;
 
 pub use case::{Group, HardCase, HardScene, Light, Truth, scene_of, volume_of};
-pub use judge::{CHORD_LIMIT, CRACK_LIMIT, Finding, is_sound, judge};
+pub use judge::{CHORD_LIMIT, CHORD_LIMIT_GPU, CRACK_LIMIT, CRACK_LIMIT_GPU, Finding, is_sound, judge};
 
 /// All cases, in the order of the document.
 pub fn all() -> Vec<HardCase> {
