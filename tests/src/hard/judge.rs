@@ -1,7 +1,6 @@
 //! Draws a hard scene in every way and holds the pictures against what is known of it.
 
-use tetrascope::{LinearImage, SceneFile};
-use tetrascope::{OpticalModel, View, reference};
+use tetrascope::{LinearImage, OpticalModel, SceneFile, View};
 
 use super::{HardScene, Truth};
 use crate::chords::chords;
