@@ -16,5 +16,5 @@ fn shade(
     crossings: ptr<function, u32>,
 ) -> Light {
     let light = volume(optics, sample.front, sample.back, sample.length);
-    return Light(light.rgb * volume_intensity(cell_corners(vertices), vertices, sample), light.transmittance);
+    return Light(light.rgb * volume_intensity(cell_corners(vertices), vertices, sample), light.opacity);
 }

@@ -56,7 +56,7 @@ fn maps_may_show(low: i32, high: i32) -> bool {
 }
 
 fn map_light(entry: vec4<f32>, corners: array<vec4<i32>, 4>, vertices: vec4<u32>, sample: Sample, depth: f32) -> Light {
-    return Light(surface_light(entry.rgb, entry.a, maps.axis.shading, corners, vertices, sample, depth), 1.0 - entry.a);
+    return Light(surface_light(entry.rgb, entry.a, maps.axis.shading, corners, vertices, sample, depth), entry.a);
 }
 
 fn shade(
@@ -70,7 +70,7 @@ fn shade(
     let corners = cell_corners(vertices);
     let scalars = corner_scalars(corners);
     let part = volume(optics, sample.front, sample.back, sample.length);
-    let inside = Light(part.rgb * volume_intensity(corners, vertices, sample), part.transmittance);
+    let inside = Light(part.rgb * volume_intensity(corners, vertices, sample), part.opacity);
     if !maps_may_show(scalars.x, scalars.y) {
         return inside;
     }

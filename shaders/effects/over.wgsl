@@ -3,5 +3,6 @@
 #use integrate/light.wgsl
 
 fn over(front: Light, behind: Light) -> Light {
-    return Light(front.rgb + front.transmittance * behind.rgb, front.transmittance * behind.transmittance);
+    let through = 1.0 - front.opacity;
+    return Light(front.rgb + through * behind.rgb, front.opacity + through * behind.opacity);
 }

@@ -49,7 +49,7 @@ fn shade(
     if near.y == 0u {
         // Nothing is crossed here, and no scalar in reach of rounding to a surface is handed on.
         let light = volume(optics, sample.front, sample.back, sample.length);
-        return Light(light.rgb * intensity, light.transmittance);
+        return Light(light.rgb * intensity, light.opacity);
     }
 
     let tolerance = surface_tolerance(scalars.x, scalars.y);
@@ -82,11 +82,11 @@ fn shade(
     let across = sample.back - sample.front;
     let is_flat = high - low < LEAST_WIDTH;
     let inverse = select(1.0 / select(across, 1.0, is_flat), 0.0, is_flat);
-    var light = Light(vec3<f32>(0.0), 1.0);
+    var light = Light(vec3<f32>(0.0), 0.0);
     // The scalar up to where the segment is composed.
     var reached = sample.front;
     // Behind an opaque surface nothing is seen. No return within the loop: drivers are known to end the loops around it as well.
-    for (var step = 0u; step < crossed && light.transmittance > 0.0; step++) {
+    for (var step = 0u; step < crossed && light.opacity < 1.0; step++) {
         let index = near.x + select(ranks.x - 1u - step, ranks.x + step, rises);
         let surface = surfaces[index];
         let value = local_value(index, cell.reference, tolerance);
@@ -95,7 +95,7 @@ fn shade(
         let share = (next - reached) * inverse;
         if share > 0.0 {
             let part = volume(optics, reached, next, sample.length * share);
-            light = over(light, Light(part.rgb * intensity, part.transmittance));
+            light = over(light, Light(part.rgb * intensity, part.opacity));
         }
         reached = next;
 
@@ -104,12 +104,12 @@ fn shade(
         let depth = sample.depth.x + (sample.depth.y - sample.depth.x) * along;
         let rgb = surface.opacity * select(surface.color, surface.back_color, rises);
         let lit = surface_light(rgb, surface.opacity, surface.shading, corners, vertices, sample, depth);
-        light = over(light, Light(lit, 1.0 - surface.opacity));
+        light = over(light, Light(lit, surface.opacity));
     }
     let rest = select((sample.back - reached) * inverse, 1.0, is_flat);
-    if rest > 0.0 && light.transmittance > 0.0 {
+    if rest > 0.0 && light.opacity < 1.0 {
         let part = volume(optics, reached, sample.back, sample.length * rest);
-        light = over(light, Light(part.rgb * intensity, part.transmittance));
+        light = over(light, Light(part.rgb * intensity, part.opacity));
     }
     return light;
 }

@@ -73,7 +73,7 @@ fn light_of(sums: Integrals, rises: bool) -> Light {
         least = sums.lowest * whole.x;
         most = sums.highest * whole.x;
     }
-    return Light(max(min(light, most), least), whole.y);
+    return Light(max(min(light, most), least), whole.x);
 }
 
 fn volume(cell: Optics, front: f32, back: f32, length: f32) -> Light {

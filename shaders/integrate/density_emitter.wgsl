@@ -14,5 +14,5 @@ fn model_linear(extinction: vec2<f32>, length: f32) -> Weights {
 // The same everywhere on the segment.
 fn model_constant(extinction: f32, color: vec3<f32>, length: f32) -> Light {
     let whole = opacity_transmittance(extinction * length);
-    return Light(color * whole.x, whole.y);
+    return Light(color * whole.x, whole.x);
 }

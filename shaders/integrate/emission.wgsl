@@ -8,10 +8,10 @@ const MODEL_COLOR_IS_PER_LENGTH: bool = true;
 
 // What the colors at the front and at the back count where they are linear.
 fn model_linear(extinction: vec2<f32>, length: f32) -> Weights {
-    return Weights(0.5 * length, 0.5 * length, 1.0);
+    return Weights(0.5 * length, 0.5 * length, 0.0);
 }
 
 // The same everywhere on the segment.
 fn model_constant(extinction: f32, color: vec3<f32>, length: f32) -> Light {
-    return Light(color * length, 1.0);
+    return Light(color * length, 0.0);
 }

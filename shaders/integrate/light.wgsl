@@ -3,7 +3,8 @@
 struct Light {
     // Linear light, what the segment hides of itself included.
     rgb: vec3<f32>,
-    transmittance: f32,
+    // And not the transmittance: next to 1 that has no digits for what a thin cell hides.
+    opacity: f32,
 }
 
 // Scalars are relative to the cell's reference scalar, in units of 2^29 lattice steps.

@@ -32,5 +32,5 @@ fn volume(cell: Optics, front: f32, back: f32, length: f32) -> Light {
     let depth = half_front + 0.5 * far.extinction * length;
     let whole = opacity_transmittance(depth);
     let front_weight = whole.x * front_share(half_front, depth);
-    return Light(near.color * front_weight + far.color * (whole.x - front_weight), whole.y);
+    return Light(near.color * front_weight + far.color * (whole.x - front_weight), whole.x);
 }

@@ -10,5 +10,5 @@ fn volume(cell: Optics, front: f32, back: f32, length: f32) -> Light {
     let factor = length * optics.table_per_length;
     let is_opaque = entry.w * factor > 1.0;
     let limited = select(factor, 1.0 / select(1.0, entry.w, is_opaque), is_opaque);
-    return Light(entry.xyz * limited, select(1.0 - entry.w * factor, 0.0, is_opaque));
+    return Light(entry.xyz * limited, select(entry.w * factor, 1.0, is_opaque));
 }

@@ -25,5 +25,5 @@ fn volume(cell: Optics, front: f32, back: f32, length: f32) -> Light {
     let shorter = mixed_scalars(first, near.share, far.share);
     let entry = mix(shorter, mixed_scalars(first + slice, near.share, far.share), node.share);
     // Mixing two entries of 1 may round up.
-    return Light(entry.xyz, max(1.0 - entry.w, 0.0));
+    return Light(entry.xyz, min(entry.w, 1.0));
 }

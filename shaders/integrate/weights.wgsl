@@ -9,7 +9,7 @@
 struct Weights {
     front: f32,
     back: f32,
-    transmittance: f32,
+    opacity: f32,
 }
 
 // Optical depth up to which a segment is followed.
@@ -53,7 +53,7 @@ fn thin_density_emitter(tau: vec2<f32>) -> Weights {
     let half = exp_half(x);
     let mean = x * sums.x;
     let difference = y * sums.y - z * sums.z;
-    return Weights(half * (mean + difference), half * (mean - difference), half * half);
+    return Weights(half * (mean + difference), half * (mean - difference), min(2.0 * half * mean, 1.0));
 }
 
 fn thin_emitter(tau: vec2<f32>) -> Weights {
@@ -63,7 +63,9 @@ fn thin_emitter(tau: vec2<f32>) -> Weights {
     let half = exp_half(x);
     let mean = z * sums.z + sums.x;
     let difference = x * sums.z;
-    return Weights(0.5 * half * (mean + difference), 0.5 * half * (mean - difference), half * half);
+    // 1 - exp(-2 x) = 2 exp(-x) sinh(x).
+    let opacity = min(2.0 * half * x * sums.x, 1.0);
+    return Weights(0.5 * half * (mean + difference), 0.5 * half * (mean - difference), opacity);
 }
 
 // The stretch of a deep segment that is followed, in parts.
@@ -145,7 +147,7 @@ fn density_emitter_weights(tau: vec2<f32>) -> Weights {
     let beyond = select(0.0, BEYOND, stretch.is_cut);
     let back = (sums_of_parts(stretch, false).y + beyond) * stretch.length;
     // No cancellation: transmittance falls, so the front has at least a third of the whole.
-    return Weights(whole.x - back, back, whole.y);
+    return Weights(whole.x - back, back, whole.x);
 }
 
 // To be multiplied by the length.
@@ -156,5 +158,5 @@ fn emitter_weights(tau: vec2<f32>) -> Weights {
     let stretch = stretch_of(tau);
     let sums = sums_of_parts(stretch, true) * (stretch.length / stretch.parts);
     let back = sums.y * stretch.length;
-    return Weights(sums.x - back, back, transmittance_of(stretch.depth));
+    return Weights(sums.x - back, back, opacity_transmittance(stretch.depth).x);
 }

@@ -12,10 +12,7 @@ fn clear(
     @builtin(local_invocation_index) local: u32,
 ) {
     let place = group_number(group, groups) * GROUP + local;
-    let pixels = frame.extent.x * frame.extent.y;
-    if place < pixels {
-        picture[place] = vec4<u32>(0u, 0u, 0u, bitcast<u32>(1.0));
-    } else if place < arrayLength(&picture) {
+    if place < arrayLength(&picture) {
         picture[place] = vec4<u32>(0u);
     }
 }

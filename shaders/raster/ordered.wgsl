@@ -1,4 +1,4 @@
-// Cells in order, front to back, into the pixels of a tile; color and transmittance stay in registers until all are drawn.
+// Cells in order, front to back, into the pixels of a tile; color and opacity stay in registers until all are drawn.
 //
 // One group draws one tile. Each invocation goes on to the next cell that covers its pixel before any is shaded, so that invocations that run together shade
 // together, each its own cell: cells are small, and few pixels have the same. A tile whose pixels are opaque ends early. Where a part of the cells lies in rings, the tiles that they touch are left to
@@ -40,7 +40,7 @@ fn draw(
     if is_seen {
         pixel = load_pixel(position);
     }
-    var is_open = is_seen && pixel.transmittance >= frame.termination;
+    var is_open = is_seen && through(pixel.hides) >= frame.termination;
     var joint = no_joint();
     var done = Done(0u, 0u, 0u, 0u);
     let before = begin_tile(tile, local);
@@ -64,7 +64,7 @@ fn draw(
                 blend(&pixel, light);
                 done.crossings += crossings;
                 done.fragments += 1u;
-                is_open = pixel.transmittance >= frame.termination;
+                is_open = through(pixel.hides) >= frame.termination;
                 slot += 1u;
             }
         }

@@ -144,7 +144,7 @@ fn store_held(position: vec2<i32>) {
 }
 
 fn is_pixel_open() -> bool {
-    return pixel.transmittance >= frame.termination;
+    return through(pixel.hides) >= frame.termination;
 }
 
 // The nearest segment leaves the window.

@@ -4,11 +4,12 @@
 
 #use include/frame.wgsl
 #use include/list.wgsl
+#use include/opacity.wgsl
 
 @group(0) @binding(10) var<storage, read> drawn: array<vec4<u32>>;
 @group(0) @binding(11) var<storage, read> tile_starts: array<u32>;
 @group(0) @binding(12) var<storage, read> tile_items: array<u32>;
-// Pixels row by row: red, green, blue, transmittance, as bits; then for every tile: fragments, crossings, fragments that were sorted, most that one pixel
+// Pixels row by row: red, green, blue, packed opacity, as bits; then for every tile: fragments, crossings, fragments that were sorted, most that one pixel
 // held back, with TILE_OPEN and TILE_CUT.
 @group(0) @binding(13) var<storage, read_write> picture: array<vec4<u32>>;
 
@@ -22,7 +23,8 @@ var<workgroup> flags_of_tile: atomic<u32>;
 // A pixel while it is drawn.
 struct Pixel {
     rgb: vec3<f32>,
-    transmittance: f32,
+    // Packed, see include/opacity.wgsl.
+    hides: f32,
 }
 
 // What was done in a pixel.
@@ -60,7 +62,7 @@ fn load_pixel(pixel: vec2<i32>) -> Pixel {
 }
 
 fn store_pixel(pixel: vec2<i32>, value: Pixel) {
-    picture[place_in_picture(pixel)] = bitcast<vec4<u32>>(vec4<f32>(value.rgb, value.transmittance));
+    picture[place_in_picture(pixel)] = bitcast<vec4<u32>>(vec4<f32>(value.rgb, value.hides));
 }
 
 fn is_outside(outline: vec4<i32>, pixel: vec2<i32>) -> bool {
@@ -69,8 +71,8 @@ fn is_outside(outline: vec4<i32>, pixel: vec2<i32>) -> bool {
 
 // Puts light behind what a pixel has.
 fn blend(pixel: ptr<function, Pixel>, light: Light) {
-    (*pixel).rgb += (*pixel).transmittance * light.rgb;
-    (*pixel).transmittance *= light.transmittance;
+    (*pixel).rgb += through((*pixel).hides) * light.rgb;
+    (*pixel).hides = with_opacity((*pixel).hides, light.opacity);
 }
 
 // Marks a tile as cut until `count_done` knows better, and gives its counts so far to the group's first invocation.

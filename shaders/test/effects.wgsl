@@ -1,6 +1,6 @@
 // For tests: one invocation a ray, which shades its segments one after the other; and one a range of scalars, which asks for surfaces.
 //
-// segments, rays: in; rays have the first of their segments and how many. lights: rgb and transmittance of each ray. counts: crossings of
+// segments, rays: in; rays have the first of their segments and how many. lights: rgb and opacity of each ray. counts: crossings of
 // each ray, or 1 where a surface may show.
 
 #use cell/cell.wgsl
@@ -37,7 +37,7 @@ fn shade_rays(
     }
     var joint = no_joint();
     var crossings = 0u;
-    var light = Light(vec3<f32>(0.0), 1.0);
+    var light = Light(vec3<f32>(0.0), 0.0);
     let ray = rays[number];
     for (var place = ray.x; place < ray.x + ray.y; place++) {
         let segment = segments[place];
@@ -54,7 +54,7 @@ fn shade_rays(
         optics.reference = segment.reference;
         light = over(light, shade(cell, segment.vertices, optics, sample, &joint, &crossings));
     }
-    lights[number] = vec4<f32>(light.rgb, light.transmittance);
+    lights[number] = vec4<f32>(light.rgb, light.opacity);
     counts[number] = crossings;
 }
 

@@ -33,6 +33,6 @@ fn integrate(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) g
     let range = find_pieces(segment.reference, low, high);
     let cell = Optics(segment.reference, low, high, range.x, range.y);
     let light = volume(cell, segment.front, segment.back, segment.length);
-    lights[index] = vec4<f32>(light.rgb, light.transmittance);
+    lights[index] = vec4<f32>(light.rgb, light.opacity);
     found[index] = vec4<u32>(range, u32(is_visible(segment.low, segment.high)), 0u);
 }

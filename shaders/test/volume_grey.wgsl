@@ -6,5 +6,5 @@
 fn volume(optics: Optics, front: f32, back: f32, length: f32) -> Light {
     let opacity = length / (1.0 + length);
     let mean = 0.75 * front + 0.25 * back;
-    return Light(opacity * vec3<f32>(0.5 + 0.25 * mean, 0.5 - 0.25 * mean, 0.25), 1.0 - opacity);
+    return Light(opacity * vec3<f32>(0.5 + 0.25 * mean, 0.5 - 0.25 * mean, 0.25), opacity);
 }

@@ -36,7 +36,7 @@ fn light_at(corners: Corners, at: FanVertex) -> vec4<f32> {
     }
     let center = screen_place(at.point, at.beside) + pixel_center(vec2<i32>(frame.columns.x, frame.rows.x));
     let light = model_constant(extinction, color, chord * ray_stretch(center));
-    return vec4<f32>(select(light.rgb, color, HAS_COLOR), 1.0 - light.transmittance);
+    return vec4<f32>(select(light.rgb, color, HAS_COLOR), light.opacity);
 }
 
 // The scalar itself.
@@ -47,5 +47,5 @@ fn scalar_of(over: f32, nearness: f32) -> f32 {
 fn fan_light(attributes: vec4<f32>) -> Light {
     let opacity = clamp(attributes.a, 0.0, 1.0);
     let color = max(attributes.rgb, vec3<f32>());
-    return Light(select(color, color * opacity, HAS_COLOR), 1.0 - opacity);
+    return Light(select(color, color * opacity, HAS_COLOR), opacity);
 }

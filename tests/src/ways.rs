@@ -15,7 +15,7 @@ pub enum Way {
     Reference,
     /// Tiles in compute programs.
     Compute,
-    /// Silhouettes that the hardware blends, in 32 bits.
+    /// Silhouettes that the hardware blends, in 32 bits unless the scene asks for others.
     Triangles,
 }
 
@@ -50,7 +50,8 @@ impl Way {
         if let Some(path) = path {
             scene.quality.adapter = Some(gpu::adapter());
             scene.quality.gpu_path = Some(Choice::Named(path));
-            scene.quality.target_bits = (path == GpuPath::Triangles).then_some(32);
+            let asked_for = scene.quality.target_bits.filter(|_| path == GpuPath::Triangles);
+            scene.quality.target_bits = (path == GpuPath::Triangles).then_some(asked_for.unwrap_or(32));
         }
         scene
     }

@@ -5,6 +5,8 @@
 //! right order or in another one. All of it by the functions that [`reference`](mod@crate::reference) draws with, so that a ray has the color
 //! that its pixel has there. Errors are measured with that: a few hundred rays cost less than a picture.
 
+use std::borrow::Cow;
+
 use rayon::prelude::*;
 use tetrascope_integrate::{Integration, RgbaAssoc, Segment};
 use tetrascope_mesh::{TetMesh, ascending};
@@ -15,7 +17,7 @@ use crate::RenderError;
 use crate::geometry::{ClipCell, PixelBox, PixelSpace, Points};
 use crate::reference::ray::{Fragment, Ray, RayComposer};
 use crate::reference::vertex::FanPainter;
-use crate::reference::{integrator, nearer_first};
+use crate::reference::{base_of, from_base, integrator, nearer_first};
 
 /// Cells that one task looks at: enough to hide its start, few enough to spread over the cores.
 const CHUNK: usize = 4096;
@@ -24,7 +26,10 @@ const CHUNK: usize = 4096;
 #[derive(Debug)]
 pub struct RayTracer<'a> {
     mesh: &'a TetMesh,
-    scalars: &'a [f64],
+    /// Less the base.
+    scalars: Cow<'a, [f64]>,
+    /// See [`scalar_base`](tetrascope_mesh::scalar_base).
+    base: f64,
     view: View,
     space: PixelSpace,
     points: Points,
@@ -43,6 +48,8 @@ pub struct Rays {
     fragments: Vec<Fragment>,
     /// World length of one unit of depth, one a ray.
     stretch: Vec<f64>,
+    /// What the fragments' scalars count from.
+    base: f64,
 }
 
 /// A ray's way through a cell.
@@ -67,14 +74,16 @@ impl<'a> RayTracer<'a> {
         let frame = mesh.frame();
         let space = PixelSpace::new(&view.in_frame(frame.origin, frame.scale), frame.scale);
         let mut points = Points::default();
-        points.project(&space, mesh.positions(), scalars);
+        let base = base_of(mesh, scalars);
+        let scalars = if base == 0.0 { Cow::Borrowed(scalars) } else { Cow::Owned(from_base(scalars, base)) };
+        points.project(&space, mesh.positions(), &scalars);
         let seen = mesh
             .tetrahedra()
             .par_iter()
             .enumerate()
             .filter_map(|(cell, corners)| Some((cell as u32, points.pixel_box(&space, corners.map(|v| v.0))?)))
             .collect();
-        Ok(Self { mesh, scalars, view: *view, space, points, seen })
+        Ok(Self { mesh, scalars, base, view: *view, space, points, seen })
     }
 
     /// The cells that may be seen, ascending, and the pixels that each may cover: first and last column, first and last row, all included.
@@ -105,7 +114,7 @@ impl<'a> RayTracer<'a> {
             fragments[starts[ray]..starts[ray + 1]].sort_by(nearer_first);
         }
         let stretch = pixels.iter().map(|&at| Ray::of_pixel(&self.space, &self.view, at).stretch).collect();
-        Rays { pixels: pixels.to_vec(), starts, fragments, stretch }
+        Rays { pixels: pixels.to_vec(), starts, fragments, stretch, base: self.base }
     }
 
     fn fragments_of(&self, cells: &[(u32, PixelBox)], pixels: &[[u32; 2]], near: &PixelLists) -> Vec<(u32, Fragment)> {
@@ -139,12 +148,13 @@ impl<'a> RayTracer<'a> {
     /// # Errors
     /// [`RenderError::Plan`].
     pub fn shader(&self, plan: &Plan, progress: &dyn Progress) -> Result<RayShader<'_>, RenderError> {
+        let plan = &plan.with_scalars_from(self.base);
         let with_fans = plan.integration.needs_fan();
         // Not looked at where fans are painted.
         let integration = if with_fans { Integration::Exact } else { plan.integration };
-        let integrator = integrator(self.mesh, self.scalars, &Plan { integration, ..plan.clone() }, progress)?;
-        let mut composer = RayComposer::new(integrator, plan, self.mesh, self.scalars);
-        composer.fans = with_fans.then(|| FanPainter::new(plan, self.space, self.mesh, self.scalars));
+        let integrator = integrator(self.mesh, &self.scalars, &Plan { integration, ..plan.clone() }, progress)?;
+        let mut composer = RayComposer::new(integrator, plan, self.mesh, &self.scalars);
+        composer.fans = with_fans.then(|| FanPainter::new(plan, self.space, self.mesh, &self.scalars));
         Ok(RayShader { tracer: self, composer })
     }
 }
@@ -171,8 +181,8 @@ impl Rays {
         self.of(ray).iter().map(move |fragment| RaySegment {
             cell: fragment.cell,
             segment: Segment {
-                scalar_front: fragment.scalar[0],
-                scalar_back: fragment.scalar[1],
+                scalar_front: fragment.scalar[0] + self.base,
+                scalar_back: fragment.scalar[1] + self.base,
                 chord_length: (fragment.depth[1] - fragment.depth[0]) * stretch,
             },
         })

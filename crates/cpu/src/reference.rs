@@ -12,7 +12,7 @@ pub(crate) mod vertex;
 use rayon::prelude::*;
 use std::sync::atomic::{AtomicU64, Ordering};
 use tetrascope_integrate::{Integrator, TableDomain};
-use tetrascope_mesh::{TetMesh, ascending};
+use tetrascope_mesh::{TetMesh, ascending, scalar_base};
 use tetrascope_order::Guarantee;
 use tetrascope_scene::{Counts, OrderReport, Plan, Progress, Rendered, Stage, Stopwatch, check_scalars};
 use tetrascope_view::LinearImage;
@@ -42,7 +42,25 @@ const TILE_SIDE: u32 = 16;
 /// [`Integration::Vertex`]: tetrascope_integrate::Integration::Vertex
 pub fn render(mesh: &TetMesh, scalars: &[f64], plan: &Plan, progress: &dyn Progress) -> Result<Rendered, RenderError> {
     check_scalars(mesh, scalars)?;
-    on_threads(plan.threads, || render_here(mesh, scalars, plan, progress))?
+    on_threads(plan.threads, || {
+        // An interpolated scalar keeps the digits in which large values differ.
+        let base = base_of(mesh, scalars);
+        if base == 0.0 {
+            render_here(mesh, scalars, plan, progress)
+        } else {
+            render_here(mesh, &from_base(scalars, base), &plan.with_scalars_from(base), progress)
+        }
+    })?
+}
+
+/// What scalars are counted from, see [`scalar_base`].
+pub(crate) fn base_of(mesh: &TetMesh, scalars: &[f64]) -> f64 {
+    scalar_base(tetrascope_mesh::scalar_range(mesh.tetrahedra(), scalars))
+}
+
+/// Scalars less a base.
+pub(crate) fn from_base(scalars: &[f64], base: f64) -> Vec<f64> {
+    scalars.iter().map(|scalar| scalar - base).collect()
 }
 
 struct Job<'a> {

@@ -261,14 +261,19 @@ fn choose_path(renderer: &GpuRenderer, plan: &Plan) -> Result<Path, GpuError> {
     }
 }
 
-/// Puts a part into the picture: pixels have their transmittance where the picture has its opacity.
+/// The opacity of a pixel as the device keeps it, see `include/opacity.wgsl`.
+pub(crate) fn opacity_of(packed: f32) -> f32 {
+    if packed < 0.0 { 1.0 + packed } else { packed }
+}
+
+/// Puts a part into the picture: pixels have packed opacities.
 fn copy(image: &mut LinearImage, part: Part, pixels: &[[f32; 4]]) {
     let width = image.width() as usize;
     let [column, row] = part.origin.map(|first| first as usize);
     for (y, line) in pixels.chunks_exact(part.extent[0] as usize).enumerate() {
         let first = (row + y) * width + column;
-        for (target, &[r, g, b, transmittance]) in image.pixels_mut()[first..].iter_mut().zip(line) {
-            *target = [r, g, b, 1.0 - transmittance];
+        for (target, &[r, g, b, packed]) in image.pixels_mut()[first..].iter_mut().zip(line) {
+            *target = [r, g, b, opacity_of(packed)];
         }
     }
 }

@@ -65,7 +65,7 @@ fn compare(gpu: &Gpu, plan: &Plan, seed: u64, name: &str) -> f64 {
             assert_eq!(crossings, known_crossings, "{name}: ray {ray}");
             all_crossings += crossings;
             let [r, g, b] = known.rgb;
-            for (channel, known) in light.into_iter().zip([r, g, b, 1.0 - known.opacity]) {
+            for (channel, known) in light.into_iter().zip([r, g, b, known.opacity]) {
                 worst = larger(worst, f64::from(channel) - known);
             }
         }

@@ -138,7 +138,7 @@ fn field() -> FieldUnits<'static> {
     }
 }
 
-/// Light and transmittance of each segment; first piece, number of pieces, visibility of its cell.
+/// Light and opacity of each segment; first piece, number of pieces, visibility of its cell.
 fn integrate(gpu: &Gpu, plan: &Plan, segments: &[GpuSegment]) -> (Vec<[f32; 4]>, Vec<[u32; 4]>) {
     checked(gpu, || {
         let lookups = Lookups::new(gpu, plan, &field(), &|_, _| ()).unwrap();
@@ -221,17 +221,17 @@ fn worst(
         let given = segment.known([0.0; 2]);
         let known = integrate_f64(&given);
         if segment.length == 0.0 {
-            assert_eq!(light, [0.0, 0.0, 0.0, 1.0], "{segment:?}");
+            assert_eq!(light, [0.0; 4], "{segment:?}");
             continue;
         }
         let [light_scale, opacity_scale] = most(plan, &transfer, &given, &known);
         let moved = sensitivity(segment, integrate_f64);
         for channel in 0..4 {
             let (got, known, scale) = match channel {
-                3 => (1.0 - f64::from(light[3]), known.opacity, opacity_scale),
+                3 => (f64::from(light[3]), known.opacity, opacity_scale),
                 _ => (f64::from(light[channel]), known.rgb[channel], light_scale),
             };
-            // A transmittance is a float next to 1, and one of several pieces a product of such.
+            // Next to 1 an opacity has as many digits as a transmittance, and one of several pieces is made of such.
             let rounding = if channel == 3 { 1.2e-7 + 6e-8 * f64::from(count) } else { 1e-30 };
             let beyond = ((got - known).abs() - 2.0 * moved[channel] - rounding).max(0.0);
             let error = beyond / scale.max(floor).max(1e-30);
@@ -356,14 +356,11 @@ fn linear_pieces_of_any_depth_are_good_to_their_opacity() {
                         let error = (f64::from(light[channel]) - known.rgb[channel]).abs() / known.rgb[0].max(1e-35);
                         largest[channel] = largest[channel].max(error);
                     }
-                    largest[3] = largest[3].max((f64::from(light[3]) - (1.0 - known.opacity)).abs());
+                    largest[3] = largest[3].max((f64::from(light[3]) - known.opacity).abs());
                 }
             }
         }
-        println!(
-            "{model}: light {:.1e} {:.1e} {:.1e}, transmittance {:.1e}",
-            largest[0], largest[1], largest[2], largest[3]
-        );
+        println!("{model}: light {:.1e} {:.1e} {:.1e}, opacity {:.1e}", largest[0], largest[1], largest[2], largest[3]);
         assert!(largest.iter().all(|&error| error < 6e-7), "{model}: {largest:?}");
     }
 }

@@ -208,6 +208,15 @@ impl TransferFunction {
         Self::from_checked(scaled(&self.color, color_factor), scaled(&self.extinction, factor))
     }
 
+    /// The same optics of a field that counts from another scalar: control points at their scalars less `base`, which is finite.
+    ///
+    /// What falls below the lowest float, or grows beyond the largest, becomes that.
+    #[must_use]
+    pub fn with_scalars_from(&self, base: f64) -> Self {
+        let from = |scalar: f64| scalar - base;
+        Self::from_checked(moved(&self.color, from), moved(&self.extinction, from))
+    }
+
     /// The same optics of a field in another unit: control points at `factor` times their scalars.
     ///
     /// Exact where `factor` is a power of two and nothing leaves the range of floats. What grows beyond the largest float becomes
@@ -219,7 +228,8 @@ impl TransferFunction {
     #[must_use]
     pub fn with_scalars_scaled(&self, factor: f64) -> Self {
         assert!(factor > 0.0 && factor.is_finite(), "a unit of the scalar is positive and finite, not {factor}");
-        Self::from_checked(moved(&self.color, factor), moved(&self.extinction, factor))
+        let scale = |scalar: f64| scalar * factor;
+        Self::from_checked(moved(&self.color, scale), moved(&self.extinction, scale))
     }
 }
 
@@ -303,9 +313,9 @@ fn scaled<const N: usize>(points: &[ControlPoint<N>], factor: f64) -> Vec<Contro
     points.iter().map(scale).collect()
 }
 
-fn moved<const N: usize>(points: &[ControlPoint<N>], factor: f64) -> Vec<ControlPoint<N>> {
-    let scale = |scalar: f64| (scalar * factor).clamp(f64::MIN, f64::MAX);
-    points.iter().map(|point| ControlPoint { scalar: scale(point.scalar), ..*point }).collect()
+fn moved<const N: usize>(points: &[ControlPoint<N>], to: impl Fn(f64) -> f64) -> Vec<ControlPoint<N>> {
+    let place = |scalar: f64| to(scalar).clamp(f64::MIN, f64::MAX);
+    points.iter().map(|point| ControlPoint { scalar: place(point.scalar), ..*point }).collect()
 }
 
 /// Shares of the two ends at a scalar between them.

@@ -53,7 +53,7 @@ pub use error::MeshError;
 pub use frame::Frame;
 pub use gradient::{point_gradients, vertex_gradients};
 pub use ids::{CellId, FaceId, VertexId};
-pub use renderer_units::{ascending, scalar_factor, scalar_range};
+pub use renderer_units::{ascending, scalar_base, scalar_factor, scalar_range};
 pub use sample::rings_sample;
 pub use tet_mesh::TetMesh;
 

@@ -33,6 +33,15 @@ pub fn scalar_range(tetrahedra: &[[VertexId; 4]], scalars: &[f64]) -> [f64; 2] {
     if low <= high { [low, high] } else { [0.0; 2] }
 }
 
+/// What renderers subtract from the scalars of a field whose values are large against their differences, lowest and highest given: of 1e9 and
+/// 1e9 + 1e-3 a sum has lost what a difference keeps. 0 for all other fields.
+///
+/// Exact: of two numbers of which one is at most twice the other the difference is a float [Sterbenz 1974].
+pub fn scalar_base([low, high]: [f64; 2]) -> f64 {
+    let (near, far) = if low.abs() <= high.abs() { (low, high) } else { (high, low) };
+    if near != 0.0 && far / near >= 1.0 && far / near <= 2.0 { near } else { 0.0 }
+}
+
 /// The power of two that brings the range of a field, lowest and highest, to between 1 and 2, so that what f32 sees of it neither over- nor
 /// underflows, whatever its unit; 1 for a field of one value. Being a power of two it changes no digit.
 pub fn scalar_factor([low, high]: [f64; 2]) -> f64 {
@@ -40,7 +49,7 @@ pub fn scalar_factor([low, high]: [f64; 2]) -> f64 {
     let half = 0.5 * high - 0.5 * low;
     if half > 0.0 {
         // Within what has a finite inverse.
-        (-half.log2().floor() - 1.0).clamp(-1000.0, 1000.0).exp2()
+        (-half.log2().floor() - 1.0).clamp(-1022.0, 1022.0).exp2()
     } else {
         1.0
     }

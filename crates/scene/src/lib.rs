@@ -52,6 +52,7 @@ mod parse;
 mod plan;
 mod rendered;
 mod scene;
+mod sharpness;
 mod shown;
 mod text;
 mod work;
@@ -79,6 +80,7 @@ pub use plan::{
 };
 pub use rendered::{BufferRole, Counts, DeviceBuffer, DeviceReport, OrderReport, Rendered, Stopwatch};
 pub use scene::Scene;
+pub use sharpness::Sharpness;
 pub use shown::{Shown, surfaces_near};
 pub use text::{rough, short};
 pub use work::{Bytes, Fragments, MapWork, TableWork, Work, WorkBuffer};

@@ -169,6 +169,19 @@ impl Plan {
         Some(self.tables.unwrap_or(usual))
     }
 
+    /// The same plan for a field that counts from another scalar: transfer function and isosurfaces at their scalars less `base`.
+    #[must_use]
+    pub fn with_scalars_from(&self, base: f64) -> Self {
+        let mut plan = self.clone();
+        if base != 0.0 {
+            plan.transfer = plan.transfer.with_scalars_from(base);
+            if let Some(isosurfaces) = &mut plan.isosurfaces {
+                isosurfaces.surfaces = isosurfaces.surfaces.with_scalars_from(base);
+            }
+        }
+        plan
+    }
+
     /// The gradients that its light needs; surfaces of opacity 0 need none.
     pub fn gradients(&self) -> Gradients {
         let Some(lighting) = &self.lighting else { return Gradients::None };

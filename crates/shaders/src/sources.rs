@@ -46,6 +46,7 @@ sources![
     "include/frame.wgsl",
     "include/group_scan.wgsl",
     "include/list.wgsl",
+    "include/opacity.wgsl",
     "include/points.wgsl",
     "include/work.wgsl",
     "integrate/absorption.wgsl",

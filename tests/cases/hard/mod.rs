@@ -1,5 +1,8 @@
 //! The hard cases of `docs/hard-cases.md`, case by case, drawn in every way.
 
+mod mesh;
+mod numbers;
+mod optics;
 mod order;
 
 use tetrascope_tests::hard::{HardCase, judge, named};

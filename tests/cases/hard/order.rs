@@ -6,3 +6,8 @@ use super::check;
 fn hard_cycles() {
     check("cycles");
 }
+
+#[test]
+fn hard_nearly_cyclic() {
+    check("nearly-cyclic");
+}

@@ -1,8 +1,173 @@
-//! Hard cases: mesh.
+//! Hard cases of meshes: what is flat, doubled, torn or does not fit.
 
-use super::HardCase;
+use std::sync::Arc;
+
+use glam::DVec3;
+use tetrascope::{Camera, Projection};
+
+use super::case::{Group, HardCase, HardScene, Truth, scene_of, volume_of};
+use crate::chords::{boundary, world};
+use crate::meshes::{Random, Tets, grid};
 
 /// The cases of this group.
 pub(super) fn cases() -> Vec<HardCase> {
-    Vec::new()
+    let case = |name, scenes| HardCase { name, group: Group::Mesh, scenes };
+    vec![
+        case("coplanar-sheet", coplanar_sheet),
+        case("cells-without-volume", cells_without_volume),
+        case("hanging-nodes", hanging_nodes),
+        case("overlapping-cells", overlapping_cells),
+        case("duplicated-cells", duplicated_cells),
+        case("cracks", cracks),
+    ]
+}
+
+const COLOR: &[[f64; 4]] = &[[0.0, 0.1, 0.3, 0.9], [0.5, 0.9, 0.9, 0.2], [1.0, 0.9, 0.1, 0.1]];
+const EXTINCTION: &[[f64; 2]] = &[[0.0, 0.5], [0.4, 3.0], [0.6, 0.2], [1.0, 4.0]];
+
+/// A smooth field from 0 to 1.
+fn field(p: DVec3) -> f64 {
+    0.5 + 0.25 * (3.1 * p.x + 0.4).sin() + 0.25 * (2.3 * p.y - 1.7 * p.z).cos()
+}
+
+/// Cells of grids, as they can be changed.
+fn grid_tets(cells: [usize; 3], origin: DVec3, size: f64) -> Tets {
+    let mesh = grid(cells, origin, size).mesh;
+    let points: Vec<DVec3> = (0..mesh.positions().len() as u32).map(|p| world(&mesh, p)).collect();
+    let scalars = points.iter().map(|&p| field(p)).collect();
+    Tets { cells: mesh.tetrahedra().iter().map(|t| t.map(|v| v.0)).collect(), points, scalars }
+}
+
+fn camera(eye: [f64; 3], target: [f64; 3], fov_y: f64) -> Camera {
+    let (eye, target) = (DVec3::from(eye), DVec3::from(target));
+    Camera { eye, target, up: DVec3::new(0.02, 0.03, 1.0), projection: Projection::Perspective { fov_y } }
+}
+
+fn scene(place: &str, tets: &Tets, camera: &Camera, truth: Option<Truth>) -> HardScene {
+    let volume = volume_of(&tets.points, &tets.cells, &tets.scalars);
+    let scene = scene_of(camera, [48, 45], COLOR, EXTINCTION);
+    match truth {
+        Some(truth) => HardScene::new(place, volume, scene, truth),
+        None => HardScene::partition(place, volume, scene),
+    }
+}
+
+/// A plate of 2,000 cells whose upper and lower faces lie in two planes: from aslant, with the eye in such a plane, and parallel to it.
+fn coplanar_sheet() -> Vec<HardScene> {
+    let tets = grid_tets([20, 20, 1], DVec3::new(-1.0, -1.0, 0.0), 0.1);
+    let parallel = Camera {
+        eye: DVec3::new(-4.0, 0.31, 0.05),
+        target: DVec3::new(0.0, 0.0, 0.05),
+        up: DVec3::Z,
+        projection: Projection::Orthographic { height: 0.3 },
+    };
+    vec![
+        scene("from aslant", &tets, &camera([1.2, -2.2, 1.4], [0.0, 0.0, 0.05], 0.7), None),
+        scene("the eye in the plane", &tets, &camera([3.0, 0.23, 0.1], [0.0, 0.0, 0.1], 0.3), None),
+        scene(
+            "the eye in the plane, within the plate",
+            &tets,
+            &camera([0.13, 0.23, 0.1], [-1.0, 0.1, 0.05], 1.2),
+            None,
+        ),
+        scene("rays along the plane", &tets, &parallel, None),
+    ]
+}
+
+/// Flat cells between good ones: four points in a plane, on a line, and two that are one. They are left out, and said.
+fn cells_without_volume() -> Vec<HardScene> {
+    let mut tets = grid_tets([3, 3, 3], DVec3::splat(-1.0), 2.0 / 3.0);
+    let outline = boundary(&tets.mesh());
+    for cell in tets.cells.clone().chunks(7).map(|cells| cells[0]) {
+        // A face and the middle of one of its edges; an edge and two points on it; a point twice.
+        let [a, b, c, _] = cell;
+        let middle = |tets: &mut Tets, share: f64| {
+            tets.points.push(tets.points[a as usize].lerp(tets.points[b as usize], share));
+            tets.scalars.push(0.5);
+            tets.points.len() as u32 - 1
+        };
+        let [half, third] = [middle(&mut tets, 0.5), middle(&mut tets, 0.25)];
+        tets.cells.extend([[a, b, c, half], [a, b, half, third], [a, b, c, a]]);
+    }
+    [camera([2.2, -3.1, 1.9], [0.0; 3], 0.75), camera([0.0, -4.0, 0.0], [0.0; 3], 0.6)]
+        .into_iter()
+        .zip(["from aslant", "down an axis"])
+        .map(|(camera, place)| {
+            let mut hard = scene(place, &tets, &camera, Some(Truth::Outline(outline.clone())));
+            hard.says = Some("no volume");
+            hard
+        })
+        .collect()
+}
+
+/// Two boxes side by side, one in cells of half the size: faces in the middle do not match, and its points lie on edges and faces of the other.
+fn hanging_nodes() -> Vec<HardScene> {
+    let coarse = grid_tets([2, 2, 2], DVec3::new(-1.0, -0.5, -0.5), 0.5);
+    let mut tets = grid_tets([4, 4, 4], DVec3::new(0.0, -0.5, -0.5), 0.25);
+    let first = tets.points.len() as u32;
+    let whole = grid_tets([4, 2, 2], DVec3::new(-1.0, -0.5, -0.5), 0.5).mesh();
+    tets.points.extend(&coarse.points);
+    tets.scalars.extend(&coarse.scalars);
+    tets.cells.extend(coarse.cells.iter().map(|cell| cell.map(|p| p + first)));
+    // The points in the middle that both have are one.
+    for coarse_point in first..tets.points.len() as u32 {
+        let at = tets.points[coarse_point as usize];
+        if let Some(fine) = tets.points[..first as usize].iter().position(|p| *p == at) {
+            tets.cells.iter_mut().flatten().filter(|p| **p == coarse_point).for_each(|p| *p = fine as u32);
+        }
+    }
+    let outline = Truth::Outline(boundary(&whole));
+    vec![
+        scene("from aslant", &tets, &camera([1.6, -2.4, 1.5], [0.0; 3], 0.8), Some(outline.clone())),
+        scene("through the middle", &tets, &camera([3.0, 0.3, 0.2], [0.0; 3], 0.4), Some(outline.clone())),
+        scene("the eye in the middle's plane", &tets, &camera([0.0, -2.6, 0.4], [0.0; 3], 0.8), Some(outline)),
+    ]
+}
+
+/// Two blocks that lie in each other. Opacity is that of both; which color is in front has no answer.
+fn overlapping_cells() -> Vec<HardScene> {
+    let mut tets = grid_tets([2, 2, 2], DVec3::splat(-1.0), 0.7);
+    let other = grid_tets([2, 2, 2], DVec3::new(-0.33, -0.41, -0.27), 0.6);
+    let first = tets.points.len() as u32;
+    tets.points.extend(&other.points);
+    tets.scalars.extend(&other.scalars);
+    tets.cells.extend(other.cells.iter().map(|cell| cell.map(|p| p + first)));
+    let mut hard = scene("two blocks", &tets, &camera([2.2, -3.1, 1.9], [0.0; 3], 0.75), Some(Truth::Reference));
+    hard.says = Some("overlaps itself");
+    vec![hard]
+}
+
+/// Cells that are there twice.
+fn duplicated_cells() -> Vec<HardScene> {
+    let mut tets = grid_tets([2, 2, 2], DVec3::splat(-0.8), 0.8);
+    let repeated: Vec<[u32; 4]> = tets.cells.iter().step_by(3).copied().collect();
+    tets.cells.extend(repeated);
+    let mut hard =
+        scene("every third cell twice", &tets, &camera([2.0, -2.9, 1.6], [0.0; 3], 0.7), Some(Truth::Reference));
+    hard.says = Some("overlaps itself");
+    vec![hard]
+}
+
+/// Cells that share no points, each moved by a little: gaps and overlaps of that width between all.
+fn cracks() -> Vec<HardScene> {
+    let whole = grid_tets([3, 3, 3], DVec3::splat(-1.0), 2.0 / 3.0);
+    let outline = Arc::new(boundary(&whole.mesh()));
+    let torn = |place: &str, width: f64| {
+        let mut random = Random::new(77);
+        let mut tets = Tets::default();
+        for cell in &whole.cells {
+            let aside = random.point() * width;
+            let first = tets.points.len() as u32;
+            tets.points.extend(cell.map(|p| whole.points[p as usize] + aside));
+            tets.scalars.extend(cell.map(|p| whole.scalars[p as usize]));
+            tets.cells.push([first, first + 1, first + 2, first + 3]);
+        }
+        let truth = Truth::Outline(outline.as_ref().clone());
+        scene(place, &tets, &camera([2.2, -3.1, 1.9], [0.0; 3], 0.75), Some(truth))
+    };
+    vec![
+        torn("points of its own for each cell", 0.0),
+        torn("cells moved by 1e-12", 1e-12),
+        torn("cells moved by 1e-9", 1e-9),
+    ]
 }

@@ -7,12 +7,19 @@ use super::case::{Group, HardCase, HardScene, scene_of, volume_of};
 
 /// The cases of this group.
 pub(super) fn cases() -> Vec<HardCase> {
-    vec![HardCase { name: "cycles", group: Group::Order, scenes: cycles }]
+    let case = |name, scenes| HardCase { name, group: Group::Order, scenes };
+    vec![case("cycles", cycles), case("nearly-cyclic", nearly_cyclic)]
 }
 
 /// Three needles, each over the next: no order of whole cells is right.
 fn cycles() -> Vec<HardScene> {
     vec![ring("a ring of three", 0.3)]
+}
+
+/// The same needles turned up at their ends by less and less, until they lie side by side, and down.
+fn nearly_cyclic() -> Vec<HardScene> {
+    let scene = |rise: f64| ring(&format!("ends {rise:e} above the next"), rise);
+    [1e-3, 1e-6, 1e-9, 1e-12, 0.0, -1e-12, -1e-9, -1e-6].map(scene).into()
 }
 
 /// Three needles around a triangle; `rise` is how far each one's end lies above the next one's start.

@@ -30,6 +30,8 @@ pub(crate) struct CarefulCell {
     pub(crate) clip: ClipCell,
     /// What else bounds a piece; none for a whole cell, which takes no memory.
     pub(crate) cuts: Box<[ClipFace]>,
+    /// Whether the transfer function changes faster in it than 32 bits know a scalar, so that the light is to be found in f64 too.
+    pub(crate) is_sharp: bool,
 }
 
 /// The pieces of the transfer function that a cell's range of scalars meets: `first .. first + count`.

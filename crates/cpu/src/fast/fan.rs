@@ -131,11 +131,10 @@ impl Fan {
         // The clamp is for rounding alone.
         let share = (sample.nearness * self.inverse_nearness).min(1.0);
         let opacity = share * self.opacity;
-        let transmittance = f32x8::splat(simd, 1.0) - opacity;
         let [r, g, b] = self.peak;
         let mut color = [f32x8::splat(simd, r), f32x8::splat(simd, g), f32x8::splat(simd, b)];
         if self.count == 0 {
-            return Light { rgb: [color[0] * share, color[1] * share, color[2] * share], transmittance };
+            return Light { rgb: [color[0] * share, color[1] * share, color[2] * share], opacity };
         }
         for triangle in 0..self.count {
             let begins = plane(simd, &self.spokes[triangle], sample).simd_ge(f32x8::splat(simd, 0.0));
@@ -145,7 +144,7 @@ impl Fan {
                 *channel = inside.select(plane(simd, over, sample).max(0.0), *channel);
             }
         }
-        Light { rgb: [color[0] * opacity, color[1] * opacity, color[2] * opacity], transmittance }
+        Light { rgb: [color[0] * opacity, color[1] * opacity, color[2] * opacity], opacity }
     }
 }
 

@@ -18,7 +18,7 @@ use super::cover::MAX_BLOCKS;
 use super::deal::{Deal, index_of, pass_through_window};
 use super::sample::{LANES, Light, Sample};
 use super::sides::Sides;
-use super::tile::Block;
+use super::tile::{Block, THIN};
 
 /// Segments that a window lists before it blends what it can: 768 KiB, which stay in a second-level cache.
 pub(crate) const LISTED: usize = 1 << 15;
@@ -67,6 +67,7 @@ struct Place {
 struct Pixel<S: Simd> {
     /// The fourth lane holds nothing of use.
     rgb: f32x4<S>,
+    opacity: f32,
     transmittance: f32,
 }
 
@@ -120,7 +121,7 @@ impl Held {
                 let mut lanes = [[0.0_f32; LANES]; 5];
                 let middle = (sample.depth[0] + sample.depth[1]) * f32x8::splat(simd, 0.5);
                 let [r, g, b] = light.rgb;
-                for (lanes, values) in lanes.iter_mut().zip([r, g, b, light.transmittance, middle]) {
+                for (lanes, values) in lanes.iter_mut().zip([r, g, b, light.opacity, middle]) {
                     values.store_slice(lanes);
                 }
                 let mut covered = sample.covered.to_bitmask();
@@ -128,9 +129,9 @@ impl Held {
                 while covered != 0 {
                     let lane = covered.trailing_zeros() as usize & (LANES - 1);
                     covered &= covered - 1;
-                    let [r, g, b, transmittance, depth] = [0, 1, 2, 3, 4].map(|i: usize| lanes[i][lane]);
+                    let [r, g, b, opacity, depth] = [0, 1, 2, 3, 4].map(|i: usize| lanes[i][lane]);
                     let pixel = (block * LANES + lane) as u32;
-                    self.listed.push(Place { pixel, depth }, [r, g, b, transmittance]);
+                    self.listed.push(Place { pixel, depth }, [r, g, b, opacity]);
                 }
             },
         );
@@ -206,6 +207,7 @@ impl<S: Simd> Pixel<S> {
         let [r, g, b] = &block.rgb;
         Self {
             rgb: f32x4::load_array(simd, [r[lane], g[lane], b[lane], 0.0]),
+            opacity: block.opacity[lane],
             transmittance: block.transmittance[lane],
         }
     }
@@ -217,6 +219,7 @@ impl<S: Simd> Pixel<S> {
         for (channel, value) in block.rgb.iter_mut().zip(rgb) {
             channel[lane] = value;
         }
+        block.opacity[lane] = self.opacity;
         block.transmittance[lane] = self.transmittance;
     }
 
@@ -224,6 +227,9 @@ impl<S: Simd> Pixel<S> {
     #[inline(always)]
     fn add(&mut self, simd: S, light: [f32; 4]) {
         self.rgb = f32x4::splat(simd, self.transmittance).mul_add(f32x4::load_array(simd, light), self.rgb);
-        self.transmittance *= light[3];
+        let hidden = self.transmittance * light[3];
+        self.opacity += hidden;
+        // As in `Block::add`.
+        self.transmittance = if self.opacity < THIN { 1.0 - self.opacity } else { self.transmittance - hidden };
     }
 }

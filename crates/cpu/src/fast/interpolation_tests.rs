@@ -65,6 +65,8 @@ impl Tetrahedron {
             outlines: &[points.pixel_box(&space, [0, 1, 2, 3]).unwrap().map(|p| p as u16)],
             optics: &renderer.optics(&plan, &Isosurfaces::default()),
             with_fans: false,
+            sharpness: None,
+            longest_depth: space.world_per_depth,
             interpolation,
             effects: None,
             gradients: &[],
@@ -79,7 +81,8 @@ impl Tetrahedron {
         }
         let mut segments = dispatch!(renderer.level, simd => segments_of(simd, &records, &space));
         for [front, back, length] in segments.iter_mut().flatten() {
-            let scalar = |relative: f64| (relative + record.scalar_reference) / renderer.scalar_factor;
+            let scalar =
+                |relative: f64| (relative + record.scalar_reference) / renderer.scalar_factor + renderer.scalar_base;
             (*front, *back, *length) = (scalar(*front), scalar(*back), *length * record.length);
         }
         Some(segments)

@@ -135,11 +135,11 @@ impl Maps {
             return (volume, 0);
         }
         let at_depth = |depth| with_effects.intensities(simd, &rays, depth, self.shading);
-        let near = shaded(simd, near, at_depth(sample.depth[0]));
+        let near = shaded(near, at_depth(sample.depth[0]));
         let light = match far {
             None => over(volume, near),
             Some(far) => {
-                let far = shaded(simd, far, at_depth(sample.depth[1]));
+                let far = shaded(far, at_depth(sample.depth[1]));
                 if matches!(self.passes, Passes::Around(_)) {
                     over(near, over(volume, far))
                 } else {
@@ -153,27 +153,24 @@ impl Maps {
 
 /// A pass of a map with what the light makes of it.
 #[inline(always)]
-fn shaded<S: Simd>(
-    simd: S,
-    (mut rgb, opacity): ([f32x8<S>; 3], f32x8<S>),
-    intensities: Option<[f32x8<S>; 2]>,
-) -> Light<S> {
+fn shaded<S: Simd>((mut rgb, opacity): ([f32x8<S>; 3], f32x8<S>), intensities: Option<[f32x8<S>; 2]>) -> Light<S> {
     if let Some([body, highlight]) = intensities {
         for channel in &mut rgb {
             *channel = channel.mul_add(body, highlight * opacity);
         }
     }
-    Light { rgb, transmittance: f32x8::splat(simd, 1.0) - opacity }
+    Light { rgb, opacity }
 }
 
 /// The first in front of the second.
 #[inline(always)]
 fn over<S: Simd>(front: Light<S>, behind: Light<S>) -> Light<S> {
     let mut rgb = front.rgb;
+    let through = 1.0 - front.opacity;
     for (channel, behind) in rgb.iter_mut().zip(behind.rgb) {
-        *channel = front.transmittance.mul_add(behind, *channel);
+        *channel = through.mul_add(behind, *channel);
     }
-    Light { rgb, transmittance: front.transmittance * behind.transmittance }
+    Light { rgb, opacity: front.opacity_with(&behind) }
 }
 
 #[inline(always)]

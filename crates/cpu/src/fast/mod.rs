@@ -29,6 +29,7 @@ mod optics;
 mod record;
 mod sample;
 mod setup;
+mod sharp;
 mod sides;
 mod surfaces;
 mod survey;
@@ -43,11 +44,13 @@ use rayon::prelude::*;
 
 use tetrascope_integrate::{Integration, Isosurfaces};
 use tetrascope_mesh::{
-    CellId, ChordLengths, Frame, TetMesh, VertexId, ascending, point_gradients, scalar_factor, scalar_range,
-    segment_lengths,
+    CellId, ChordLengths, Frame, TetMesh, VertexId, ascending, point_gradients, scalar_base, scalar_factor,
+    scalar_range, segment_lengths,
 };
 use tetrascope_order::{Cells, CycleRemedy, Guarantee, MeshVisibility, OrderMethod, PixelSort, VisibilityOrder};
-use tetrascope_scene::{Counts, Gradients, OrderReport, Plan, Progress, Rendered, Stage, Stopwatch, check_scalars};
+use tetrascope_scene::{
+    Counts, Gradients, Interpolation, OrderReport, Plan, Progress, Rendered, Stage, Stopwatch, check_scalars,
+};
 use tetrascope_view::LinearImage;
 
 use crate::RenderError;
@@ -84,9 +87,11 @@ const KEPT: usize = 2;
 pub struct CpuRenderer {
     frame: Frame,
     positions: Vec<DVec3>,
-    /// In a unit in which their range is about one.
+    /// From a scalar near them, in a unit in which their range is about one.
     scalars: Vec<f64>,
-    /// Scalars of the plan's transfer function times this are in that unit; a power of two.
+    /// That scalar: 0 unless the field's values are large against their differences.
+    scalar_base: f64,
+    /// Scalars of the plan's transfer function less the base, times this, are in that unit; a power of two.
     scalar_factor: f64,
     /// Vertices in ascending order.
     tetrahedra: Vec<[VertexId; 4]>,
@@ -162,11 +167,14 @@ impl CpuRenderer {
             })
             .unzip();
         let range = scalar_range(mesh.tetrahedra(), scalars);
+        let scalar_base = scalar_base(range);
+        let range = range.map(|scalar| scalar - scalar_base);
         let scalar_factor = scalar_factor(range);
         Ok(Self {
             frame: mesh.frame(),
             positions: mesh.positions().to_vec(),
-            scalars: scalars.iter().map(|s| s * scalar_factor).collect(),
+            scalars: scalars.iter().map(|s| (s - scalar_base) * scalar_factor).collect(),
+            scalar_base,
             scalar_factor,
             scalar_range: range.map(|scalar| scalar * scalar_factor),
             tetrahedra,
@@ -259,6 +267,11 @@ impl CpuRenderer {
         }
         let with_fans = plan.integration == Integration::Vertex;
         let effects = effects.as_ref();
+        let longest_depth = space.ray_stretch(0.5 * f64::from(space.size[0]), 0.5 * f64::from(space.size[1]));
+        // Local coordinates are at most 1 long, so that no chord is longer than 2.
+        let is_sharp = plan.integration == Integration::Exact
+            && plan.interpolation == Interpolation::Exact
+            && optics.sharpness().may_be_beyond_32_bits(2.0 * self.frame.scale * longest_depth / space.world_per_depth);
         let setup = SetUp {
             renderer: self,
             points,
@@ -266,6 +279,8 @@ impl CpuRenderer {
             outlines,
             optics: &optics,
             with_fans,
+            sharpness: is_sharp.then(|| optics.sharpness()),
+            longest_depth,
             interpolation: plan.interpolation,
             effects,
             gradients,
@@ -374,7 +389,8 @@ impl CpuRenderer {
     /// The isosurfaces that are to be seen, in the renderer's unit.
     fn surfaces(&self, plan: &Plan) -> Isosurfaces {
         plan.isosurfaces.as_ref().map_or_else(Isosurfaces::default, |isosurfaces| {
-            isosurfaces.surfaces.visible().with_scalars_scaled(self.scalar_factor)
+            let seen = isosurfaces.surfaces.visible();
+            seen.with_scalars_from(self.scalar_base).with_scalars_scaled(self.scalar_factor)
         })
     }
 
@@ -387,8 +403,8 @@ impl CpuRenderer {
     fn optics(&self, plan: &Plan, surfaces: &Isosurfaces) -> Arc<Optics> {
         let is_right = |optics: &Optics| optics.is_for(&plan.transfer, plan.model, surfaces);
         recall(&self.optics, is_right).unwrap_or_else(|| {
-            let (factor, model) = (self.scalar_factor, plan.model);
-            let optics = Optics::new(&plan.transfer, factor, model, surfaces, &self.tetrahedra, &self.scalars);
+            let unit = (self.scalar_base, self.scalar_factor);
+            let optics = Optics::new(&plan.transfer, unit, plan.model, surfaces, &self.tetrahedra, &self.scalars);
             remember(&self.optics, optics)
         })
     }

@@ -76,13 +76,14 @@ impl Model for DensityEmitter {
         let [tau_front, tau_back] = end_depths(simd, piece, [front, back], length);
         let weights = density_emitter_weights(simd, tau_front, tau_back);
         let rgb = mix(simd, piece, [front, back], [weights.front, weights.back]);
-        Light { rgb, transmittance: weights.transmittance }
+        // Rounding may put the sum above one.
+        Light { rgb, opacity: (weights.front + weights.back).min(1.0) }
     }
 
     #[inline(always)]
     fn constant<S: Simd>(simd: S, extinction: f32x8<S>, color: [f32x8<S>; 3], length: f32x8<S>) -> Light<S> {
-        let (opacity, transmittance) = opacity_transmittance(simd, extinction * length);
-        Light { rgb: times(color, opacity), transmittance }
+        let (opacity, _) = opacity_transmittance(simd, extinction * length);
+        Light { rgb: times(color, opacity), opacity }
     }
 }
 
@@ -95,7 +96,8 @@ impl Model for Emitter {
         let [tau_front, tau_back] = end_depths(simd, piece, [front, back], length);
         let weights = emitter_weights(simd, tau_front, tau_back);
         let rgb = mix(simd, piece, [front, back], [weights.front * length, weights.back * length]);
-        Light { rgb, transmittance: weights.transmittance }
+        let (opacity, _) = opacity_transmittance(simd, (tau_front + tau_back) * 0.5);
+        Light { rgb, opacity }
     }
 
     #[inline(always)]
@@ -103,7 +105,7 @@ impl Model for Emitter {
         let tau = extinction * length;
         let weights = emitter_weights(simd, tau, tau);
         let weight = (weights.front + weights.back) * length;
-        Light { rgb: times(color, weight), transmittance: weights.transmittance }
+        Light { rgb: times(color, weight), opacity: opacity_transmittance(simd, tau).0 }
     }
 }
 
@@ -121,7 +123,7 @@ impl Model for Absorption {
     fn constant<S: Simd>(simd: S, extinction: f32x8<S>, _: [f32x8<S>; 3], length: f32x8<S>) -> Light<S> {
         // Zeros and not the color: with isosurfaces, light is added in every model.
         let rgb = [f32x8::splat(simd, 0.0); 3];
-        Light { rgb, transmittance: opacity_transmittance(simd, extinction * length).1 }
+        Light { rgb, opacity: opacity_transmittance(simd, extinction * length).0 }
     }
 }
 
@@ -132,11 +134,11 @@ impl Model for Emission {
     #[inline(always)]
     fn linear<S: Simd>(simd: S, piece: &LocalPiece, front: f32x8<S>, back: f32x8<S>, length: f32x8<S>) -> Light<S> {
         let half = length * 0.5;
-        Light { rgb: mix(simd, piece, [front, back], [half, half]), transmittance: f32x8::splat(simd, 1.0) }
+        Light { rgb: mix(simd, piece, [front, back], [half, half]), opacity: f32x8::splat(simd, 0.0) }
     }
 
     #[inline(always)]
     fn constant<S: Simd>(simd: S, _: f32x8<S>, color: [f32x8<S>; 3], length: f32x8<S>) -> Light<S> {
-        Light { rgb: times(color, length), transmittance: f32x8::splat(simd, 1.0) }
+        Light { rgb: times(color, length), opacity: f32x8::splat(simd, 0.0) }
     }
 }

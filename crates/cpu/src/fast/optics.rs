@@ -3,7 +3,7 @@
 use rayon::prelude::*;
 use tetrascope_integrate::{Isosurfaces, OpticalModel, Piece, TransferFunction};
 use tetrascope_mesh::{CellId, VertexId};
-use tetrascope_scene::Shown;
+use tetrascope_scene::{Sharpness, Shown};
 
 use super::cell::{CellPieces, LocalPiece};
 use super::record::CellRecord;
@@ -16,6 +16,8 @@ pub(crate) struct Optics {
     /// What is to be seen in which cells.
     shown: Shown,
     pub(crate) model: OpticalModel,
+    /// How fast the transfer function changes.
+    sharpness: Sharpness,
     /// The pieces of the transfer function, as lines.
     lines: Vec<Line>,
     /// One entry a cell.
@@ -71,16 +73,17 @@ impl Line {
 
 impl Optics {
     /// - `surfaces`: those that are to be seen, in the renderer's unit
-    /// - `scalars`: one a point, in the renderer's unit: those of the plan times `factor`
+    /// - `base`, `factor`: scalars of the plan less the first, times the second, are in the renderer's unit
+    /// - `scalars`: one a point, in that unit
     pub(crate) fn new(
         source: &TransferFunction,
-        factor: f64,
+        (base, factor): (f64, f64),
         model: OpticalModel,
         surfaces: &Isosurfaces,
         tetrahedra: &[[VertexId; 4]],
         scalars: &[f64],
     ) -> Self {
-        let shown = Shown::new(source.with_scalars_scaled(factor), model, surfaces.clone());
+        let shown = Shown::new(source.with_scalars_from(base).with_scalars_scaled(factor), model, surfaces.clone());
         let transfer = shown.transfer();
         let range = |cell: &[VertexId; 4]| {
             let values = cell.map(|v| scalars[v.index()]);
@@ -102,7 +105,8 @@ impl Optics {
         let visible =
             (0..tetrahedra.len() as u32).into_par_iter().filter(|&cell| is_shown[cell as usize]).map(CellId).collect();
         let lines = transfer.pieces().iter().map(Line::new).collect();
-        Self { source: source.clone(), shown, model, lines, pieces, visible, is_shown }
+        let sharpness = Sharpness::new(shown.transfer(), model);
+        Self { source: source.clone(), shown, model, sharpness, lines, pieces, visible, is_shown }
     }
 
     /// Whether these are the optics of that transfer function, and of surfaces of these values.
@@ -114,6 +118,10 @@ impl Optics {
     /// For every cell whether it adds something to the picture.
     pub(crate) fn is_shown(&self) -> &[bool] {
         &self.is_shown
+    }
+
+    pub(crate) fn sharpness(&self) -> &Sharpness {
+        &self.sharpness
     }
 
     pub(crate) fn visible(&self) -> &[CellId] {

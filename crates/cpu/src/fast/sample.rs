@@ -36,12 +36,21 @@ pub(crate) struct Sample<S: Simd> {
     pub(crate) covered: mask32x8<S>,
 }
 
-/// What a cell sends to the eye in each lane, and how much it lets through.
+/// What a cell sends to the eye in each lane, and how much it hides.
 #[derive(Clone, Copy)]
 pub(crate) struct Light<S: Simd> {
     /// Linear, premultiplied.
     pub(crate) rgb: [f32x8<S>; 3],
-    pub(crate) transmittance: f32x8<S>,
+    /// And not the transmittance: next to 1 that has no digits for what a thin cell hides, and equal layers would all round the same way.
+    pub(crate) opacity: f32x8<S>,
+}
+
+impl<S: Simd> Light<S> {
+    /// The opacity of two lights, one behind the other.
+    #[inline(always)]
+    pub(crate) fn opacity_with(&self, other: &Self) -> f32x8<S> {
+        (1.0 - self.opacity).mul_add(other.opacity, self.opacity)
+    }
 }
 
 /// Pixel centers of a block's lanes, counted from the middle of the picture. Exact.

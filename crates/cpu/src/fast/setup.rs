@@ -6,7 +6,7 @@ use glam::{DVec2, DVec3};
 use tetrascope_classify::{DepthPlane, cut_at_depth};
 use tetrascope_mesh::{CellId, VertexId};
 use tetrascope_order::{CutPlane, Piece};
-use tetrascope_scene::Interpolation;
+use tetrascope_scene::{Interpolation, Sharpness};
 
 use super::CpuRenderer;
 use super::cell::{CarefulCell, Cell, Outline};
@@ -36,6 +36,10 @@ pub(crate) struct SetUp<'a> {
     pub(crate) optics: &'a Optics,
     /// Whether the integration is defined on fans of triangles.
     pub(crate) with_fans: bool,
+    /// Of the transfer function, where the integration is exact and some cell may be beyond 32 bits.
+    pub(crate) sharpness: Option<&'a Sharpness>,
+    /// World length of one unit of depth along the most slanted ray.
+    pub(crate) longest_depth: f64,
     /// How segments are found at a pixel.
     pub(crate) interpolation: Interpolation,
     /// Isosurfaces and light, if there are any.
@@ -116,12 +120,25 @@ impl SetUp<'_> {
     /// Adds a cell's record, if it has volume.
     #[inline(always)]
     fn add(&self, cell: &Cell, records: &mut Records) {
-        let record = self.record(cell).or_else(|| {
+        let is_sharp = self.is_sharp(cell);
+        let record = if is_sharp { None } else { self.record(cell) };
+        let record = record.or_else(|| {
             let clip = ClipCell::new(&cell.corners, &cell.scalars, cell.is_positive)?;
-            records.careful.push(CarefulCell { corners: cell.corners, clip, cuts: Box::default() });
+            records.careful.push(CarefulCell { corners: cell.corners, clip, cuts: Box::default(), is_sharp });
             Some(self.careful_record(cell, records.careful.len() - 1))
         });
         records.cells.extend(record);
+    }
+
+    /// Whether the transfer function changes faster in a cell than 32 bits know a scalar.
+    #[inline(always)]
+    fn is_sharp(&self, cell: &Cell) -> bool {
+        let Some(sharp) = self.sharpness else { return false };
+        let range = |values: [f64; 4]| {
+            values.iter().fold([f64::INFINITY, f64::NEG_INFINITY], |[l, h], &v| [l.min(v), h.max(v)])
+        };
+        let ([low, high], [nearest, farthest]) = (range(cell.scalars), range(cell.corners.map(|p| p.z)));
+        sharp.is_beyond_32_bits(low, high, (farthest - nearest) * self.longest_depth)
     }
 
     /// Adds the part of a cell that lies behind planes, if the cell has volume; in f64, where any number of planes can bound it.
@@ -130,7 +147,7 @@ impl SetUp<'_> {
         let Some(clip) = ClipCell::new(&cell.corners, &cell.scalars, cell.is_positive) else { return };
         let cuts = planes.iter().map(|plane| self.space.face(plane.point, plane.normal)).collect();
         let record = self.careful_record(cell, records.careful.len());
-        records.careful.push(CarefulCell { corners: cell.corners, clip, cuts });
+        records.careful.push(CarefulCell { corners: cell.corners, clip, cuts, is_sharp: self.is_sharp(cell) });
         records.cells.push(record);
     }
 

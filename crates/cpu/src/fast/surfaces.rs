@@ -242,7 +242,7 @@ impl CellWithEffects<'_> {
         let is_flat = high.simd_le(low);
         let inverse = one / is_flat.select(one, high - low);
         let rises = front_rank.simd_lt(back_rank) | (front_rank.simd_eq(back_rank) & sample.front.simd_le(sample.back));
-        let mut light = Light { rgb: [zero; 3], transmittance: one };
+        let mut light = Light { rgb: [zero; 3], opacity: zero };
         let mut crossings = 0;
         // By ascending scalar: a part of the volume, the surface above it, the next part.
         for index in first..=last {
@@ -303,7 +303,7 @@ impl CellWithEffects<'_> {
                 }
             }
         }
-        Light { rgb, transmittance: one - opacity }
+        Light { rgb, opacity }
     }
 }
 
@@ -347,12 +347,13 @@ fn lit<S: Simd>(mut light: Light<S>, intensities: Option<[f32x8<S>; 2]>) -> Ligh
 /// Puts light behind what is there where the scalar rises along the ray, else in front of it.
 #[inline(always)]
 fn compose<S: Simd>(light: &mut Light<S>, next: Light<S>, rises: mask32x8<S>) {
+    let (through_light, through_next) = (1.0 - light.opacity, 1.0 - next.opacity);
     for (channel, next_channel) in light.rgb.iter_mut().zip(next.rgb) {
-        let behind = light.transmittance.mul_add(next_channel, *channel);
-        let before = next.transmittance.mul_add(*channel, next_channel);
+        let behind = through_light.mul_add(next_channel, *channel);
+        let before = through_next.mul_add(*channel, next_channel);
         *channel = rises.select(behind, before);
     }
-    light.transmittance *= next.transmittance;
+    light.opacity = light.opacity_with(&next);
 }
 
 /// The lowest and the highest rank of the lanes that cross anything.

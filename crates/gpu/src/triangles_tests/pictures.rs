@@ -7,6 +7,7 @@ use tetrascope_shaders::{BindingKind, Constant, Program, Slot};
 
 use super::scene::{EXTINCTION, EXTINCTION_SLOPE, Random, SIZE, Scene, Uploaded, layers, random_cell};
 use crate::Gpu;
+use crate::draw::opacity_of;
 use tetrascope_scene::TargetBits;
 
 use crate::stopwatch::Laps;
@@ -21,7 +22,7 @@ const SLOTS: &[Slot<'static>] = &[
     ("model", "integrate/density_emitter.wgsl"),
 ];
 
-/// A picture of a scene in blocks of `cells` cells, back to front.
+/// A picture of a scene in blocks of `cells` cells, back to front: rgb and transmittance.
 fn draw(gpu: &Gpu, scene: &Scene, light_at: LightAt, precision: TargetBits, cells: u32) -> Vec<[f32; 4]> {
     checked(gpu, || {
         let path = TrianglePath::new(gpu, light_at, SLOTS, &[], precision, cells).unwrap();
@@ -42,7 +43,8 @@ fn draw(gpu: &Gpu, scene: &Scene, light_at: LightAt, precision: TargetBits, cell
                 BlockToDraw { cells, is_first: number + 1 == blocks, is_last: number == 0, extent: scene.part.extent };
             path.record(gpu, &mut encoder, &mut Laps::new(None), &resources, &target, place);
         }
-        contents(gpu, encoder, &uploaded.picture, (SIZE * SIZE) as usize)
+        let pixels: Vec<[f32; 4]> = contents(gpu, encoder, &uploaded.picture, (SIZE * SIZE) as usize);
+        pixels.into_iter().map(|[r, g, b, packed]| [r, g, b, 1.0 - opacity_of(packed)]).collect()
     })
 }
 

@@ -104,11 +104,11 @@ impl<S: Simd, const PER_LENGTH: bool> Sums<S, PER_LENGTH> {
         self.depth += depth;
     }
 
-    /// Light and transmittance of the segments.
+    /// Light and opacity of the segments.
     ///
     /// - `rises`: lanes whose scalar rises along the ray, so that the first piece is the nearest
     ///
-    /// Without length: no light, and a transmittance of exactly 1.
+    /// Without length: no light, and an opacity of exactly 0.
     #[inline(always)]
     pub fn finish(self, simd: S, rises: mask32x8<S>) -> ([f32x8<S>; 3], f32x8<S>) {
         let depth = self.depth;
@@ -139,7 +139,7 @@ impl<S: Simd, const PER_LENGTH: bool> Sums<S, PER_LENGTH> {
             };
             *channel = light.min(most).max(least);
         }
-        (rgb, transmittance)
+        (rgb, opacity)
     }
 }
 

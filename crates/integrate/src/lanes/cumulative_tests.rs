@@ -60,7 +60,7 @@ macro_rules! integrate {
             })
             .collect();
         let rises: [f32; 8] = core::array::from_fn(|lane| lanes[lane][1] - lanes[lane][0]);
-        let (rgb, transmittance) = dispatch!($level, simd => {
+        let (rgb, opacity) = dispatch!($level, simd => {
             let mut sums = Sums::<_, $per_length>::new(simd);
             for (rho, color, length) in &pieces {
                 sums.add(simd, &Part {
@@ -70,15 +70,15 @@ macro_rules! integrate {
                 });
             }
             let rises: f32x8<_> = rises.simd_into(simd);
-            let (rgb, transmittance) = sums.finish(simd, rises.simd_ge(0.0));
-            (rgb.map(<[f32; 8]>::from), <[f32; 8]>::from(transmittance))
+            let (rgb, opacity) = sums.finish(simd, rises.simd_ge(0.0));
+            (rgb.map(<[f32; 8]>::from), <[f32; 8]>::from(opacity))
         });
-        (0..8).map(|lane| (rgb.map(|channel| channel[lane]), transmittance[lane])).collect::<Vec<_>>()
+        (0..8).map(|lane| (rgb.map(|channel| channel[lane]), opacity[lane])).collect::<Vec<_>>()
     }};
 }
 
 fn check(got: &[([f32; 3], f32)], known: &[RgbaAssoc], most: impl Fn(usize) -> f64, worst: &mut [f64; 2]) {
-    for (lane, ((rgb, transmittance), known)) in got.iter().zip(known).enumerate() {
+    for (lane, ((rgb, opacity), known)) in got.iter().zip(known).enumerate() {
         let most = most(lane);
         for (got, known) in rgb.iter().zip(known.rgb) {
             assert!(got.is_finite() && *got >= 0.0);
@@ -88,7 +88,7 @@ fn check(got: &[([f32; 3], f32)], known: &[RgbaAssoc], most: impl Fn(usize) -> f
                 assert_eq!(*got, 0.0);
             }
         }
-        worst[1] = worst[1].max((f64::from(*transmittance) - (1.0 - known.opacity)).abs());
+        worst[1] = worst[1].max((f64::from(*opacity) - known.opacity).abs());
     }
 }
 
@@ -117,7 +117,7 @@ fn sums_agree_with_the_means_in_64_bits() {
             }
         }
         println!(
-            "{name}: light {:.1e}, {:.1e} (emitter), transmittance {:.1e}, {:.1e}",
+            "{name}: light {:.1e}, {:.1e} (emitter), opacity {:.1e}, {:.1e}",
             scattered[0], glowing[0], scattered[1], glowing[1]
         );
         assert!(scattered[0] < 4e-6 && glowing[0] < 4e-6, "{scattered:?} {glowing:?}");
@@ -147,14 +147,14 @@ fn extremes_stay_finite() {
                     let (dense, glow) = (dense.finish(simd, rises), glow.finish(simd, rises));
                     ((dense.0.map(|c| c[0]), dense.1[0]), (glow.0.map(|c| c[0]), glow.1[0]))
                 });
-                for (rgb, transmittance) in [dense, glow] {
+                for (rgb, opacity) in [dense, glow] {
                     assert!(rgb.iter().all(|c| c.is_finite() && *c >= 0.0), "{extinction:e} {length:e}: {rgb:?}");
-                    assert!((0.0..=1.0).contains(&transmittance));
+                    assert!((0.0..=1.0).contains(&opacity));
                 }
-                let opacity = 1.0 - dense.1;
+                let opacity = dense.1;
                 assert!(dense.0[0] <= opacity * (1.0 + 1e-6) + f32::MIN_POSITIVE + 2e-7);
                 if length == 0.0 || extinction == 0.0 {
-                    assert_eq!((dense.0, dense.1), ([0.0; 3], 1.0), "nothing is nothing");
+                    assert_eq!((dense.0, dense.1), ([0.0; 3], 0.0), "nothing is nothing");
                 }
             }
         }

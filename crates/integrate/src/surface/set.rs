@@ -153,6 +153,14 @@ impl Isosurfaces {
         Self { surfaces: self.surfaces.iter().copied().filter(|surface| surface.opacity > 0.0).collect() }
     }
 
+    /// The same surfaces of a field that counts from another scalar: values less `base`, which is finite.
+    #[must_use]
+    pub fn with_scalars_from(&self, base: f64) -> Self {
+        let from =
+            |surface: &Isosurface| Isosurface { value: (surface.value - base).clamp(f64::MIN, f64::MAX), ..*surface };
+        Self { surfaces: self.surfaces.iter().map(from).collect() }
+    }
+
     /// The same surfaces of a field in another unit: values at `factor` times theirs; `factor` is positive.
     #[must_use]
     pub fn with_scalars_scaled(&self, factor: f64) -> Self {

@@ -45,8 +45,8 @@ impl<const PER_LENGTH: bool> Method for Cumulative<PER_LENGTH> {
                 }
             }
         }
-        let (rgb, transmittance) = sums.finish(simd, rises);
-        Light { rgb, transmittance }
+        let (rgb, opacity) = sums.finish(simd, rises);
+        Light { rgb, opacity }
     }
 }
 

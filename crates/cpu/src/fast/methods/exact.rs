@@ -15,6 +15,9 @@ impl Method for Exact {
 
     #[inline(always)]
     fn shade<S: Simd, M: Model>(simd: S, cell: CellOptics<'_>, sample: &Sample<S>) -> Light<S> {
+        if let Some(sharp) = cell.sharp {
+            return sharp.shade(simd, sample);
+        }
         if let [piece] = cell.pieces {
             let start = f32x8::splat(simd, piece.start);
             return M::linear(simd, piece, sample.front - start, sample.back - start, sample.length);
@@ -32,7 +35,7 @@ fn cut<S: Simd, M: Model>(simd: S, pieces: &[LocalPiece], sample: &Sample<S>) ->
     let high = sample.front.max(sample.back);
     let is_flat = high.simd_le(low);
     let inverse = one / is_flat.select(one, high - low);
-    let mut light = Light { rgb: [zero; 3], transmittance: one };
+    let mut light = Light { rgb: [zero; 3], opacity: zero };
     let last = pieces.len() - 1;
     for index in met(simd, pieces, sample.covered, low, high) {
         let piece = &pieces[index];
@@ -49,12 +52,13 @@ fn cut<S: Simd, M: Model>(simd: S, pieces: &[LocalPiece], sample: &Sample<S>) ->
         }
         let (from, to) = (from - start, to - start);
         let next = M::linear(simd, piece, rises.select(from, to), rises.select(to, from), length);
+        let (through_light, through_next) = (one - light.opacity, one - next.opacity);
         for c in 0..3 {
-            let behind = light.transmittance.mul_add(next.rgb[c], light.rgb[c]);
-            let before = next.transmittance.mul_add(light.rgb[c], next.rgb[c]);
+            let behind = through_light.mul_add(next.rgb[c], light.rgb[c]);
+            let before = through_next.mul_add(light.rgb[c], next.rgb[c]);
             light.rgb[c] = rises.select(behind, before);
         }
-        light.transmittance *= next.transmittance;
+        light.opacity = light.opacity_with(&next);
     }
     light
 }

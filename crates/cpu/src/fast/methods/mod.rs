@@ -25,6 +25,7 @@ use super::fan::Fan;
 use super::lookup::CellTable;
 use super::model::{Model, at};
 use super::sample::{Light, Sample};
+use super::sharp::SharpCell;
 
 /// What a method knows of a cell's optics.
 #[derive(Clone, Copy)]
@@ -35,6 +36,8 @@ pub(crate) struct CellOptics<'a> {
     pub(crate) fan: Option<&'a Fan>,
     /// The table, where the method has one.
     pub(crate) table: Option<CellTable<'a>>,
+    /// What the exact method draws in f64 all through.
+    pub(crate) sharp: Option<SharpCell<'a>>,
 }
 
 /// An integration method.

@@ -23,6 +23,6 @@ impl Method for Partial {
         for (channel, back) in rgb.iter_mut().zip(back) {
             *channel = weights.front.mul_add(*channel, weights.back * back);
         }
-        Light { rgb, transmittance: weights.transmittance }
+        Light { rgb, opacity: (weights.front + weights.back).min(1.0) }
     }
 }

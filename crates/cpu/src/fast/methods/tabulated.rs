@@ -16,8 +16,8 @@ impl<const THREE: bool> Method for Tabulated<THREE> {
 
     #[inline(always)]
     fn shade<S: Simd, M: Model>(simd: S, cell: CellOptics<'_>, sample: &Sample<S>) -> Light<S> {
-        let (zero, one) = (f32x8::splat(simd, 0.0), f32x8::splat(simd, 1.0));
-        let Some(table) = cell.table else { return Light { rgb: [zero; 3], transmittance: one } };
+        let zero = f32x8::splat(simd, 0.0);
+        let Some(table) = cell.table else { return Light { rgb: [zero; 3], opacity: zero } };
         let (per_scalar, at_reference) = (f32x8::splat(simd, table.per_scalar), f32x8::splat(simd, table.at_reference));
         let front = per_scalar.mul_add(sample.front, at_reference);
         let back = per_scalar.mul_add(sample.back, at_reference);
@@ -27,6 +27,6 @@ impl<const THREE: bool> Method for Tabulated<THREE> {
             (false, Table::Two(table)) => table.look_up_lanes(simd, front, back, length),
             _ => TableLight { rgb: [zero; 3], opacity: zero },
         };
-        Light { rgb, transmittance: one - opacity }
+        Light { rgb, opacity }
     }
 }

@@ -16,7 +16,7 @@ impl Method for Vertex {
     fn shade<S: Simd, M: Model>(simd: S, cell: CellOptics<'_>, sample: &Sample<S>) -> Light<S> {
         match cell.fan {
             Some(fan) => fan.shade(simd, sample),
-            None => Light { rgb: [f32x8::splat(simd, 0.0); 3], transmittance: f32x8::splat(simd, 1.0) },
+            None => Light { rgb: [f32x8::splat(simd, 0.0); 3], opacity: f32x8::splat(simd, 0.0) },
         }
     }
 }

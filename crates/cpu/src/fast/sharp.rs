@@ -1,0 +1,53 @@
+//! Cells in which the transfer function changes faster than 32 bits know a scalar, integrated in f64, ray by ray.
+
+use fearless_simd::{Simd, f32x8, prelude::*};
+use tetrascope_integrate::{Segment, exact};
+
+use super::cell::CarefulCell;
+use super::optics::Optics;
+use super::sample::{LANES, Light, Sample};
+use crate::geometry::PixelSpace;
+
+/// Such a cell, and all that its light depends on.
+#[derive(Clone, Copy)]
+pub(crate) struct SharpCell<'a> {
+    pub(crate) cell: &'a CarefulCell,
+    /// The record's reference pixel.
+    pub(crate) pixel: [u16; 2],
+    pub(crate) optics: &'a Optics,
+    pub(crate) space: &'a PixelSpace,
+}
+
+impl SharpCell<'_> {
+    /// The light of a block. Out of line: few cells ask for it.
+    #[cold]
+    #[inline(never)]
+    pub(crate) fn shade<S: Simd>(&self, simd: S, sample: &Sample<S>) -> Light<S> {
+        let mut place = [[0.0_f32; LANES]; 2];
+        for (lanes, values) in place.iter_mut().zip(sample.place) {
+            values.store_slice(lanes);
+        }
+        let covered = sample.covered.to_bitmask();
+        let (mut rgb, mut opacity) = ([[0.0_f32; LANES]; 3], [0.0_f32; LANES]);
+        for lane in (0..LANES).filter(|lane| covered >> lane & 1 != 0) {
+            let [u, w] = [0, 1].map(|axis| {
+                let from_reference = f64::from(place[axis][lane]);
+                PixelSpace::center(u32::from(self.pixel[axis]), self.space.size[axis]) + from_reference
+            });
+            let Some(span) = self.cell.clip.span_behind(&self.cell.cuts, self.space.is_perspective, u, w) else {
+                continue;
+            };
+            let segment = Segment {
+                scalar_front: span.scalar[0],
+                scalar_back: span.scalar[1],
+                chord_length: (span.depth[1] - span.depth[0]) * self.space.ray_stretch(u, w),
+            };
+            let light = exact(self.optics.transfer(), self.optics.model, &segment);
+            for (lanes, value) in rgb.iter_mut().zip(light.rgb) {
+                lanes[lane] = value as f32;
+            }
+            opacity[lane] = light.opacity as f32;
+        }
+        Light { rgb: rgb.map(|lanes| f32x8::load_array(simd, lanes)), opacity: f32x8::load_array(simd, opacity) }
+    }
+}
