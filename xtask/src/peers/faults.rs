@@ -144,8 +144,14 @@ pub(super) fn sentences(rows: &[Row]) -> String {
         let verdict = if found.is_seen { "Confirmed" } else { "Not confirmed" };
         let _ = writeln!(text, "- {}. {verdict} on `{}`: {}.", fault.claim, fault.scene, found.figures);
     }
+    if !text.is_empty() {
+        text.push_str(LEFT_OUT);
+    }
     text
 }
+
+/// What those measurements had found of other mappers.
+const LEFT_OUT: &str = "\nWhat they had found of ZSweep, of grids that a mesh is resampled to, of cells that are no tetrahedra and of ParaView was not tried again.\n";
 
 /// The scenes that faults are looked for in.
 #[cfg(test)]
