@@ -46,6 +46,7 @@ pub fn all() -> Vec<PeerScene> {
         flat_cells(),
         silhouettes(),
         eye_inside(),
+        large_cells(),
     ]
 }
 
@@ -233,6 +234,19 @@ fn eye_inside() -> PeerScene {
         says: "the eye in the middle of the control's block",
         volume: volume(&bent_block(8, 0.1, 11).mesh, smooth),
         scene: gentle(&camera),
+        is_merged: true,
+    }
+}
+
+/// A cube of five cells that reach from near the eye to three times as far.
+fn large_cells() -> PeerScene {
+    let camera = perspective(dvec3(0.9, 0.7, 2.4), dvec3(0.1, 0.0, 0.0), 62.0);
+    let color = [[-1.0, 0.1, 0.2, 1.0], [0.0, 0.1, 0.9, 0.2], [1.0, 1.0, 0.2, 0.1]];
+    PeerScene {
+        name: "large-cells",
+        says: "a cube of five cells, seen from near by, with a field that changes with depth",
+        volume: volume(&grid([1, 1, 1], DVec3::splat(-1.0), 2.0).mesh, |p| p.z),
+        scene: scene_of(&camera, SIZE, &color, &[[-1.0, 1.5], [1.0, 1.5]]),
         is_merged: true,
     }
 }

@@ -105,6 +105,11 @@ const FAULTS: &[Fault] = &[
         scene: "eye-inside",
         look: |row, _| at_best(&row.ray_cast),
     },
+    Fault {
+        claim: "The ray caster interpolates scalars over a face as it lies on the screen, without perspective: wrong in cells that are large for their distance",
+        scene: "large-cells",
+        look: |row, _| at_best(&row.ray_cast),
+    },
 ];
 
 /// The picture as it is.
@@ -138,7 +143,7 @@ pub(super) fn sentences(rows: &[Row]) -> String {
     for fault in FAULTS {
         let Some(row) = rows.iter().find(|row| row.name == fault.scene) else { continue };
         if text.is_empty() {
-            text.push_str("What earlier measurements of VTK had found, and whether its scene shows it here (more than 16/255 in some channel):\n\n");
+            text.push_str("What measurements of VTK had found, and whether its scene shows it here (more than 16/255 in some channel):\n\n");
         }
         let found = (fault.look)(row, rows);
         let verdict = if found.is_seen { "Confirmed" } else { "Not confirmed" };
