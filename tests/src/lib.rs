@@ -7,6 +7,7 @@ pub mod golden;
 pub mod gpu;
 pub mod hard;
 pub mod meshes;
+pub mod peers;
 pub mod pictures;
 pub mod scenes;
 pub mod shapes;

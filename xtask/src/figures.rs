@@ -7,7 +7,7 @@ mod cells;
 mod maps;
 mod raw;
 mod scene;
-mod sheet;
+pub(crate) mod sheet;
 
 use std::fs;
 use std::time::Instant;

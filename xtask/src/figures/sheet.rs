@@ -9,7 +9,7 @@ const GAP: u32 = 4;
 const PAPER: [f32; 4] = [1.0; 4];
 
 /// A picture over a background: opaque.
-pub(super) fn over(image: &LinearImage, background: [f32; 3]) -> LinearImage {
+pub(crate) fn over(image: &LinearImage, background: [f32; 3]) -> LinearImage {
     let mut opaque = image.clone();
     for pixel in opaque.pixels_mut() {
         let through = 1.0 - pixel[3];
@@ -22,7 +22,7 @@ pub(super) fn over(image: &LinearImage, background: [f32; 3]) -> LinearImage {
 }
 
 /// Pictures in rows, one row below the other, on white.
-pub(super) fn grid(rows: &[Vec<LinearImage>]) -> LinearImage {
+pub(crate) fn grid(rows: &[Vec<LinearImage>]) -> LinearImage {
     let sum = |sides: &mut dyn Iterator<Item = u32>| sides.map(|side| side + GAP).sum::<u32>().saturating_sub(GAP);
     let tallest = |row: &Vec<LinearImage>| row.iter().map(LinearImage::height).max().unwrap_or(0);
     let width = rows.iter().map(|row| sum(&mut row.iter().map(LinearImage::width))).max().unwrap_or(0);
