@@ -36,6 +36,7 @@ mod error;
 mod errors;
 mod heights;
 mod made;
+mod memory;
 mod order_worth;
 mod render;
 mod threads;
@@ -44,6 +45,7 @@ mod volume;
 pub use backend::adapter_of_auto;
 pub use check::{MeshCheck, OrderCheck, seen_pixels};
 pub use error::Error;
+pub use memory::{MemoryError, memory_left};
 pub use order_worth::OrderWorth;
 pub use render::{Picture, is_blank, render_scene, render_volume, warn_of_non_finite};
 pub use volume::{SAMPLE, Volume, VolumeField, is_builtin, resolve_path};
@@ -58,8 +60,9 @@ pub use tetrascope_integrate::{
     deviation,
 };
 pub use tetrascope_io::{
-    IoError, Loaded, PictureFile, PngImage, encode_png, make_folder, read_exr, read_heights, read_mesh, read_picture,
-    read_png, readers, write_bytes, write_exr, write_heights, write_image, write_png, write_vtu,
+    IoError, Loaded, PictureFile, PngImage, encode_png, end_writing, make_folder, read_exr, read_heights, read_mesh,
+    read_picture, read_png, readers, write_bytes, write_exr, write_files, write_heights, write_image, write_png,
+    write_vtu,
 };
 pub use tetrascope_mesh::{
     ArrayValues, CellKind, Cells, ChordLengths, DataArray, Dataset, Decomposition, MeshError, StructuredBlock, TetMesh,

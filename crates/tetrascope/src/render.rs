@@ -63,6 +63,7 @@ pub fn render_volume(volume: &Volume, scene: &SceneFile, progress: &dyn Progress
     let start = Instant::now();
     let plan = field.plan(&mut completed)?;
     let chosen = start.elapsed();
+    field.check_memory(&plan, &[])?;
     let rendered = field.render(&plan, progress)?;
     let order = field.order_worth(&plan, &rendered);
     completed.warnings.extend(field.keep_heights(&completed, &plan));
