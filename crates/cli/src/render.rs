@@ -5,7 +5,8 @@ use std::time::{Duration, Instant};
 
 use tetrascope::{
     CameraSection, Choice, Completed, ErrorFigures, GpuPath, IsosurfaceSection, Plan, ProjectionName, Rendered,
-    SceneFile, Volume, VolumeField, explain_blank, is_blank, resolve_path, warn_of_non_finite, write_image,
+    SceneFile, Volume, VolumeField, check_writable, explain_blank, is_blank, resolve_path, warn_of_non_finite,
+    write_image,
 };
 
 use crate::Failure;
@@ -337,7 +338,7 @@ fn override_by_options(scene: &mut SceneFile, args: &SceneArgs) {
     set_some(&mut quality.adapter, args.adapter.as_ref());
 }
 
-/// Refuses a target of the wrong kind or in a folder that is not there.
+/// Refuses a target of the wrong kind, in a folder that is not there, or in one that takes no file.
 pub(crate) fn check_target(path: &Path, extensions: &[&str], kind: &str) -> Result<(), Failure> {
     let extension = path.extension().map(|e| e.to_string_lossy().to_lowercase()).unwrap_or_default();
     if !extensions.contains(&extension.as_str()) {
@@ -352,5 +353,5 @@ pub(crate) fn check_target(path: &Path, extensions: &[&str], kind: &str) -> Resu
             folder.display()
         )));
     }
-    Ok(())
+    Ok(check_writable(path).map_err(tetrascope::Error::Io)?)
 }

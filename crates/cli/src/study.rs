@@ -3,7 +3,9 @@
 use std::path::{Path, PathBuf};
 
 use serde_json::{Value, json};
-use tetrascope::{Backend, Choice, Plan, SceneFile, Volume, VolumeField, foresee_blank, make_folder, resolve_path};
+use tetrascope::{
+    Backend, Choice, Plan, SceneFile, Volume, VolumeField, check_writable, foresee_blank, make_folder, resolve_path,
+};
 use tetrascope_study::{Figure, Options, Outcome, Study, bytes_text, error_text, ms_text, percent_text};
 
 use crate::Failure;
@@ -20,6 +22,7 @@ pub(crate) fn run(args: &StudyArgs) -> Result<(), Failure> {
     let missing: Vec<&Path> = args.output.ancestors().take_while(|folder| !is_there(folder)).collect();
     missing.into_iter().rev().for_each(interrupt::made_folder);
     make_folder(&args.output).map_err(tetrascope::Error::Io)?;
+    check_writable(&args.output.join("study.html")).map_err(tetrascope::Error::Io)?;
     if args.output.join("study.html").exists() {
         interrupt::will_replace(format!("the study in {}", args.output.display()));
     }

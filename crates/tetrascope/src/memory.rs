@@ -51,6 +51,24 @@ impl VolumeField<'_> {
     }
 }
 
+/// What fits into any machine: nobody is asked about it.
+const ALWAYS_THERE: u64 = 64 << 20;
+
+/// Refuses a file that cannot be held, and it is held whole.
+pub(crate) fn check_file(bytes: u64) -> Result<(), MemoryError> {
+    check_large("mesh file", bytes)
+}
+
+/// Refuses a mesh of which not even the least can be held: tetrahedra and points as they are cut and drawn, a cell counted as one tetrahedron.
+pub(crate) fn check_mesh(cells: usize, points: usize) -> Result<(), MemoryError> {
+    // Four points and a sign, twice over; a position and a scalar, twice over.
+    check_large("tetrahedra", 2 * (17 * cells as u64 + 32 * points as u64))
+}
+
+fn check_large(what: &'static str, bytes: u64) -> Result<(), MemoryError> {
+    if bytes <= ALWAYS_THERE { Ok(()) } else { check(vec![(what, bytes)], memory_left(), is_given) }
+}
+
 /// What is held in the host's memory.
 fn parts_of(work: &Work, more: &[(&'static str, u64)]) -> Vec<(&'static str, u64)> {
     let is_on_host = |role: BufferRole, label: &str| {

@@ -17,10 +17,9 @@ impl LinearImage {
     /// The same where the memory for it may not be there: `None` then, and nothing is held.
     pub fn try_transparent(width: u32, height: u32) -> Option<Self> {
         let size = (width as usize).checked_mul(height as usize)?;
-        let mut pixels = Vec::new();
-        pixels.try_reserve_exact(size).ok()?;
-        pixels.resize(size, [0.0; 4]);
-        Some(Self { width, height, pixels })
+        // Asked for and given back: what the system hands out next is zero already, and need not be touched.
+        Vec::<[f32; 4]>::new().try_reserve_exact(size).ok()?;
+        Some(Self::transparent(width, height))
     }
 
     /// A picture from its pixels, row after row; `None` unless there are `width * height` of them.

@@ -41,6 +41,15 @@ pub fn write_files<'a>(files: impl IntoIterator<Item = (&'a Path, &'a [u8])>) ->
     put_in_place(pending).map_err(|(path, error)| not_written(&path, &error))
 }
 
+/// Whether a file could be written here: a temporary one is made beside it and removed. For whoever works long before there is something to
+/// write.
+///
+/// # Errors
+/// [`IoError::Write`] where the folder takes no file, or something else than a file is at `path`.
+pub fn check_writable(path: &Path) -> Result<(), IoError> {
+    PendingFile::empty(path).map(drop).map_err(|error| not_written(path, &error))
+}
+
 /// Makes a folder, and those that it lies in, where they are not there yet.
 ///
 /// # Errors
@@ -126,6 +135,14 @@ impl Drop for Listed {
 
 impl PendingFile {
     fn make(path: &Path, write: impl FnOnce(&mut fs::File) -> io::Result<()>) -> io::Result<Self> {
+        let mut pending = Self::empty(path)?;
+        write(pending.file.as_file_mut())?;
+        // Some file systems report a full disk only here.
+        pending.file.as_file().sync_all()?;
+        Ok(pending)
+    }
+
+    fn empty(path: &Path) -> io::Result<Self> {
         let target = target_of(path)?;
         let folder = match target.parent() {
             Some(parent) if !parent.as_os_str().is_empty() => parent,
@@ -138,13 +155,9 @@ impl PendingFile {
         builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
         let mut pending = pending();
         pending.refuse_if_ended()?;
-        let mut file = builder.tempfile_in(folder)?;
+        let file = builder.tempfile_in(folder)?;
         let listed = Listed(file.path().to_owned());
         pending.paths.push(listed.0.clone());
-        drop(pending);
-        write(file.as_file_mut())?;
-        // Some file systems report a full disk only here.
-        file.as_file().sync_all()?;
         Ok(Self { file, target, listed })
     }
 }
