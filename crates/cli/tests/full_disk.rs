@@ -81,7 +81,7 @@ const WRITERS: [(&[&str], &str); 9] = [
     (&["study", "builtin:rings", "--quick", "--size", "16", "--frames", "1", "--json"], "study.csv"),
 ];
 
-/// With these the picture of 4 by 4 pixels has room, and what comes after it has not.
+/// With these the picture of 14 by 14 pixels has room, and what comes after it has not.
 const AFTER_A_PICTURE: [(&[&str], &str); 4] = [
     (&["--write-scene", "a.toml"], "a.toml"),
     (&["--write-scene", "a.json"], "a.json"),
@@ -100,7 +100,7 @@ fn there_is_no_room_for_the_whole_file() {
         }
     }
     for (more, file) in AFTER_A_PICTURE {
-        let args = [&["render", "builtin:rings", "--size", "4", "-o", "small.png"], more].concat();
+        let args = [&["render", "builtin:rings", "--size", "14", "-o", "small.png"], more].concat();
         refused(folder.path(), "ulimit -f 1", &args, file, &["small.png"]);
         std::fs::remove_file(folder.path().join("small.png")).unwrap();
     }
