@@ -12,6 +12,7 @@ mod golden;
 mod gpu;
 mod hard;
 mod hostile;
+mod interrupted;
 mod invariants;
 mod isosurfaces;
 mod light;

@@ -36,7 +36,9 @@ Examples:
   tetrascope plan scene.toml               what that would take, and why
   tetrascope compare a.exr b.exr           how far two pictures are apart
 
-Exit codes: 0 good, 1 wrong input, 2 wrong usage, 3 pictures differ by more than a threshold.";
+Exit codes: 0 good, 1 wrong input or no room (disk, memory), 2 wrong usage, 3 pictures differ by more than a threshold, 130 interrupted by
+Ctrl-C, 143 by the system's request to end. Files are written whole or not at all, and what they replace stays until then; a second Ctrl-C ends
+at once.";
 
 #[derive(Debug, Subcommand)]
 pub(crate) enum Command {
@@ -71,7 +73,8 @@ Control points are in the field's own units and in ascending order; between them
 points at one scalar make a step. Extinction is per world unit of length: 1 takes away 63 % of the light behind within one unit.
 Isosurfaces stand in the volume; --extinction \"0:0\" leaves them alone in the picture.
 
-Exit codes: 0 good, 1 wrong input, 2 wrong usage. Pictures are written whole or not at all.";
+Exit codes: 0 good, 1 wrong input or no room, 2 wrong usage, 130 interrupted. Files are written whole or not at all: interrupted, or with
+a full disk, the old ones stay as they were. More memory than the machine has is refused before the work.";
 
 /// From where a mesh is seen.
 #[derive(Debug, Default, Args)]
@@ -102,7 +105,8 @@ Examples:
   tetrascope check case.vtu --map wrong.png        one picture an order: wrong-mpvo.png, ...
 
 Pairs of tetrahedra are judged across the faces between them and across gaps of the mesh, without rounding; pixels by the picture
-in which every pixel sorts what its ray meets. Exit codes: 0 good, 1 wrong input, 2 wrong usage; an order that is wrong is no error.";
+in which every pixel sorts what its ray meets. Exit codes: 0 good, 1 wrong input or no room, 2 wrong usage, 130 interrupted; an order that is
+wrong is no error.";
 
 #[derive(Debug, Args)]
 #[command(after_help = CHECK_EXAMPLES)]
@@ -163,7 +167,8 @@ Examples:
   tetrascope study case.vtu --adapter 0        on software that poses as a graphics card, too
 
 Every setting is compared with the exact reference and timed over a small turn of the eye. A study is a measurement: leave the machine alone
-meanwhile. Exit codes: 0 good, 1 wrong input, 2 wrong usage. Files are written whole or not at all.";
+meanwhile. Exit codes: 0 good, 1 wrong input or no room, 2 wrong usage, 130 interrupted. The four files replace an earlier study's all together,
+at the end: interrupted, or with a full disk, that stays as it was.";
 
 #[derive(Debug, Args)]
 #[command(after_help = STUDY_EXAMPLES)]
@@ -355,7 +360,7 @@ Examples:
 
 It takes what `render` takes. Cells and entries of tables are counted exactly, fragments are estimated and say so; memory is exact
 unless it says at most, at least or about. With --backend gpu and auto the device is asked what it can.
-Exit codes: 0 good, also for a picture that would be blank, 1 wrong input, 2 wrong usage.";
+Exit codes: 0 good, also for a picture that would be blank or refused for want of memory, 1 wrong input, 2 wrong usage, 130 interrupted.";
 
 #[derive(Debug, Args)]
 #[command(after_help = PLAN_EXAMPLES)]

@@ -12,6 +12,7 @@ use tetrascope::{
 
 use crate::Failure;
 use crate::args::CheckArgs;
+use crate::interrupt;
 use crate::progress::Bar;
 use crate::render::{check_target, scene_as_seen, wrong_scene};
 use crate::report::{line, object, warning};
@@ -53,10 +54,12 @@ fn check(args: &CheckArgs, bar: &Bar) -> Result<Value, Failure> {
     let solution = scene.mesh.solution.as_ref().map(|path| resolve_path(&base_dir, path));
     let volume = Volume::load(&resolve_path(&base_dir, &scene.mesh.path), solution.as_deref())?;
     let field = volume.field(scene.mesh.field.as_deref())?;
+    interrupt::go_on()?;
     bar.step("looking at the mesh");
     let solves = args.heights || args.order.contains(&OrderMethod::Power);
     let mesh = field.check_mesh(&volume.decomposition, solves, args.threads.map(usize::from))?;
     bar.clear();
+    interrupt::go_on()?;
     let mut warnings: Vec<String> = volume.warnings.clone();
     warnings.extend(field.field.warnings.iter().cloned());
     warnings.extend(field.on_mesh.warning());
@@ -76,8 +79,12 @@ fn check(args: &CheckArgs, bar: &Bar) -> Result<Value, Failure> {
         let mut plan = completed.scene.plan().map_err(|error| wrong(error.into()))?;
         // Whole cells in the order itself: no remedy mends what is to be judged.
         plan.cycles = CycleRemedy::Report;
+        // Two pictures that are compared, and where they differ.
+        let pixels = u64::from(plan.view.width) * u64::from(plan.view.height);
+        field.check_memory(&plan, &[("reference", 48 * pixels)])?;
         bar.step("relations between cells");
         let relations = field.relations(&plan)?;
+        interrupt::go_on()?;
         bar.step("drawing what pictures are compared with");
         let exact = field.exact_picture(&plan, bar)?;
         bar.clear();
@@ -87,6 +94,7 @@ fn check(args: &CheckArgs, bar: &Bar) -> Result<Value, Failure> {
         }
         let mut judged = Vec::new();
         for &method in &orders {
+            interrupt::go_on()?;
             bar.step("judging an order");
             let order = field.check_order(&plan, method, &relations, &exact, bar)?;
             bar.clear();
@@ -192,7 +200,9 @@ fn name_of_map(path: &Path, view: Option<usize>, order: Option<&str>) -> PathBuf
 fn write_map(path: &Path, order: &OrderCheck, plan: &Plan) -> Result<PathBuf, Failure> {
     let pixels: &PixelDifference = &order.pixels;
     let map = pixels.map(plan.view.width).ok_or_else(|| Failure::Input("the map has no pixels".to_owned()))?;
+    interrupt::will_write(path);
     write_png(path, &map, [0.0; 3]).map_err(tetrascope::Error::Io)?;
+    interrupt::wrote(path);
     Ok(path.to_owned())
 }
 

@@ -9,6 +9,7 @@ use tetrascope::{
 
 use crate::Failure;
 use crate::args::{CompareArgs, Figure};
+use crate::interrupt;
 use crate::render::check_target;
 use crate::report::{line, object};
 
@@ -43,6 +44,7 @@ pub(crate) fn run(args: &CompareArgs) -> Result<(), Failure> {
             output.display()
         )));
     }
+    args.output.iter().for_each(|path| interrupt::will_write(path));
     let read = |path: &Path| read_picture(path).map_err(tetrascope::Error::Io);
     let files = [read(&args.picture)?, read(&args.other)?];
     let background = args.background.unwrap_or_default().map(|channel| channel as f32);
@@ -148,6 +150,7 @@ fn values_of(image: &PngImage) -> LinearImage {
 
 /// Writes where the pictures differ; gives the path for the report.
 pub(crate) fn write_difference(path: &Path, picture: &LinearImage, other: &LinearImage) -> Result<String, Failure> {
+    interrupt::go_on()?;
     let is_linear = path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("exr"));
     let written = if is_linear {
         PixelDifference::channels(picture, other).map(|differences| write_exr(path, &differences))
@@ -157,6 +160,7 @@ pub(crate) fn write_difference(path: &Path, picture: &LinearImage, other: &Linea
     };
     // Only pictures of different sizes have none, and those were refused.
     written.transpose().map_err(tetrascope::Error::Io)?;
+    interrupt::wrote(path);
     Ok(path.display().to_string())
 }
 

@@ -1,13 +1,15 @@
 //! The program `tetrascope`: draws unstructured meshes as volumes.
 //!
 //! Reports go to standard output, warnings, errors and the progress bar to standard error. Exit codes: 0 good, 1 wrong input,
-//! 2 wrong usage, 3 pictures differ by more than a threshold.
+//! 2 wrong usage, 3 pictures differ by more than a threshold, 130 interrupted by Ctrl-C, 143 by the system's request to end. Files
+//! are written whole or not at all, whatever ends the program.
 
 mod args;
 mod check;
 mod compare;
 mod devices;
 mod info;
+mod interrupt;
 mod plan;
 mod progress;
 mod render;
@@ -45,6 +47,8 @@ enum Failure {
     Input(String),
     /// Pictures differ by more than was allowed, which was reported: exit code 3.
     Differs,
+    /// Somebody wants no more of it, which is reported at the end: exit code 130 or 143.
+    Interrupted,
 }
 
 impl From<tetrascope::Error> for Failure {
@@ -54,9 +58,42 @@ impl From<tetrascope::Error> for Failure {
 }
 
 fn main() -> ExitCode {
-    // Prints by itself and exits with 2 for a wrong command line, with 0 for --help and --version.
-    let cli = Cli::parse();
-    let done = match &cli.command {
+    let cli = match Cli::try_parse() {
+        Ok(cli) => cli,
+        // A wrong command line, or --help and --version.
+        Err(said) => {
+            report::note_failure(said.print());
+            return code_of(u8::try_from(said.exit_code()).unwrap_or(2));
+        }
+    };
+    if let Err(problem) = interrupt::watch() {
+        report::warning(&format!("Ctrl-C ends the program without a word: {problem}"));
+    }
+    let done = run(&cli);
+    interrupt::remove_empty_folders();
+    match (done, interrupt::exit_code()) {
+        (Ok(()), _) => code_of(0),
+        // Whatever failed, failed since the work was to end.
+        (Err(_), Some(code)) => {
+            interrupt::say();
+            ExitCode::from(code)
+        }
+        (Err(Failure::Usage(message)), None) => {
+            let help = help_of(cli.command.as_ref());
+            report::error(&format!("{message}\n\nFor more information, try '{help}'."));
+            ExitCode::from(2)
+        }
+        (Err(Failure::Input(message)), None) => {
+            report::error(&message);
+            ExitCode::from(1)
+        }
+        (Err(Failure::Differs), None) => code_of(3),
+        (Err(Failure::Interrupted), None) => ExitCode::from(130),
+    }
+}
+
+fn run(cli: &Cli) -> Result<(), Failure> {
+    match &cli.command {
         None => sample::run(),
         Some(Command::Render(args)) => render::run(args),
         Some(Command::Info(args)) => info::run(args),
@@ -65,18 +102,16 @@ fn main() -> ExitCode {
         Some(Command::Devices(args)) => devices::run(args),
         Some(Command::Plan(args)) => plan::run(args),
         Some(Command::Compare(args)) => compare::run(args),
-    };
-    match done {
-        Ok(()) => ExitCode::SUCCESS,
-        Err(Failure::Usage(message)) => {
-            let help = help_of(cli.command.as_ref());
-            report::error(&format!("{message}\n\nFor more information, try '{help}'."));
-            ExitCode::from(2)
-        }
-        Err(Failure::Input(message)) => {
+    }
+}
+
+/// The code, unless the report did not reach standard output.
+fn code_of(code: u8) -> ExitCode {
+    match report::not_said() {
+        Some(message) => {
             report::error(&message);
             ExitCode::from(1)
         }
-        Err(Failure::Differs) => ExitCode::from(3),
+        None => ExitCode::from(code),
     }
 }

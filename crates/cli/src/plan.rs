@@ -7,6 +7,7 @@ use tetrascope::{Volume, foresee_blank, resolve_path};
 
 use crate::Failure;
 use crate::args::PlanArgs;
+use crate::interrupt;
 use crate::progress::Bar;
 use crate::render::{scene_of, wrong_scene};
 use crate::report::{line, object, warning};
@@ -35,12 +36,14 @@ fn plan(args: &PlanArgs, bar: &Bar) -> Result<Said, Failure> {
     bar.step("reading and cutting into tetrahedra");
     let solution = scene.mesh.solution.as_ref().map(|path| resolve_path(&base_dir, path));
     let volume = Volume::load(&resolve_path(&base_dir, &scene.mesh.path), solution.as_deref())?;
+    interrupt::go_on()?;
     let field = volume.field(scene.mesh.field.as_deref())?;
     bar.step("choosing methods");
     let wrong = |error: tetrascope::Error| wrong_scene(args.scene.file(), error);
     let mut completed = scene.complete(&field.facts).map_err(|error| wrong(error.into()))?;
     completed.scene.threads = threads;
     let plan = field.plan(&mut completed).map_err(wrong)?;
+    interrupt::go_on()?;
     let work = field.work(&plan)?;
 
     let mut blank = foresee_blank(&plan, &field.facts);
@@ -59,6 +62,13 @@ fn plan(args: &PlanArgs, bar: &Bar) -> Result<Said, Failure> {
     if !blank.is_empty() {
         said.warnings.push(format!("the picture will be blank: {}", blank.join("; ")));
     }
+    match field.check_memory(&plan, &[]) {
+        Err(error @ tetrascope::Error::Memory(_)) => {
+            said.warnings.push(format!("the picture will be refused: {error}"));
+        }
+        done => done?,
+    }
+    interrupt::go_on()?;
     if let Value::Object(all) = &mut said.json {
         all.insert("blank".to_owned(), json!(blank));
         all.insert("warnings".to_owned(), json!(said.warnings));

@@ -8,6 +8,8 @@ use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use tetrascope::{Progress, Stage};
 use tetrascope_study::StudyProgress;
 
+use crate::interrupt;
+
 /// A bar that shows one step at a time.
 #[derive(Debug)]
 pub(crate) struct Bar {
@@ -25,6 +27,7 @@ impl Bar {
             ProgressDrawTarget::stderr_with_hz(10)
         };
         let bar = ProgressBar::with_draw_target(None, target);
+        interrupt::shows(&bar);
         Self { bar, stage: Mutex::new(None) }
     }
 
@@ -57,6 +60,10 @@ impl StudyProgress for Bar {
         self.bar.set_message(step.to_owned());
         self.bar.set_position(done);
     }
+
+    fn is_stopped(&self) -> bool {
+        interrupt::is_stopped()
+    }
 }
 
 impl Progress for Bar {
@@ -79,5 +86,8 @@ impl Progress for Bar {
         if done > self.bar.position() {
             self.bar.set_position(done);
         }
+    }
+    fn is_stopped(&self) -> bool {
+        interrupt::is_stopped()
     }
 }

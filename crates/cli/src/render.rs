@@ -5,12 +5,14 @@ use std::time::{Duration, Instant};
 
 use tetrascope::{
     CameraSection, Choice, Completed, ErrorFigures, GpuPath, IsosurfaceSection, Plan, ProjectionName, Rendered,
-    SceneFile, Volume, VolumeField, explain_blank, is_blank, resolve_path, warn_of_non_finite, write_image,
+    SceneFile, Volume, VolumeField, check_writable, explain_blank, is_blank, resolve_path, warn_of_non_finite,
+    write_image,
 };
 
 use crate::Failure;
 use crate::args::{CameraArgs, RenderArgs, SceneArgs};
 use crate::compare::write_difference;
+use crate::interrupt;
 use crate::progress::Bar;
 use crate::report::Report;
 use crate::scene_paths::{self, folder_of, is_scene};
@@ -67,6 +69,8 @@ impl Job<'_> {
         self.outputs.iter().try_for_each(|path| check_target(path, &["png", "exr"], "pictures"))?;
         self.error_map.iter().try_for_each(|path| check_target(path, &["exr", "png"], "error maps"))?;
         self.write_scene.iter().try_for_each(|path| check_target(path, &["toml", "json"], "scenes"))?;
+        let targets = self.outputs.iter().map(PathBuf::as_path).chain(self.write_scene).chain(self.error_map);
+        targets.for_each(interrupt::will_write);
         let start = Instant::now();
         let bar = Bar::new(self.quiet);
         let mut report = Report::new(self.quiet, self.json);
@@ -83,6 +87,7 @@ impl Job<'_> {
         let solution = mesh.solution.as_ref().map(|path| resolve_path(&self.base_dir, path));
         let volume = Volume::load(&resolve_path(&self.base_dir, &mesh.path), solution.as_deref())?;
         bar.clear();
+        interrupt::go_on()?;
         report.volume(&volume);
 
         let start = Instant::now();
@@ -94,15 +99,16 @@ impl Job<'_> {
         let (completed, plan) = self.decide(&field)?;
         bar.clear();
         report.chose_in(start.elapsed());
+        interrupt::go_on()?;
         report.plan(&completed, &plan, self.threads);
+        field.check_memory(&plan, &self.memory_besides(&plan))?;
 
         let rendered = field.render(&plan, bar)?;
         bar.clear();
         report.rendered(&rendered, &plan, &field.order_worth(&plan, &rendered));
+        field.precision_warnings(&plan).iter().for_each(|warning| report.warn(warning));
         report.device(&rendered, &plan, self.explain);
-        if let Some(warning) = field.keep_heights(&completed, &plan) {
-            report.warn(&warning);
-        }
+        self.keep_heights(&field, &completed, &plan, report)?;
         if let Some(warning) = warn_of_non_finite(&rendered.image) {
             report.warn(&warning);
         } else if is_blank(&rendered.image) {
@@ -111,6 +117,37 @@ impl Job<'_> {
         let written_in = self.write(&completed, &plan, &rendered, report)?;
         report.wrote_in(written_in);
         self.say_errors(&field, &plan, &rendered, bar, report)
+    }
+
+    /// What the files take on their way out, and the reference that errors are measured by.
+    fn memory_besides(&self, plan: &Plan) -> [(&'static str, u64); 2] {
+        let pixels = u64::from(plan.view.width) * u64::from(plan.view.height);
+        let is_linear =
+            |path: &PathBuf| path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("exr"));
+        let file = if self.outputs.iter().any(is_linear) { 32 } else { 6 };
+        let reference = if self.verify || self.error_map.is_some() { 48 } else { 0 };
+        [("files", file * pixels), ("reference", reference * pixels)]
+    }
+
+    /// Keeps what the order found out; the file counts as written if it is another one then.
+    fn keep_heights(
+        &self,
+        field: &VolumeField<'_>,
+        completed: &Completed,
+        plan: &Plan,
+        report: &mut Report,
+    ) -> Result<(), Failure> {
+        interrupt::go_on()?;
+        let path = field.heights_path();
+        let changed = || path.as_ref().and_then(|path| std::fs::metadata(path).ok()?.modified().ok());
+        let before = changed();
+        if let Some(warning) = field.keep_heights(completed, plan) {
+            report.warn(&warning);
+        }
+        if let Some(path) = path.as_ref().filter(|_| changed() != before) {
+            interrupt::wrote(path);
+        }
+        interrupt::go_on()
     }
 
     /// How wrong the picture is thought to be, and how wrong it is where that was asked for. After the picture was written: it is not
@@ -129,6 +166,7 @@ impl Job<'_> {
             let start = Instant::now();
             let estimate = field.estimate_error(plan, rendered)?;
             bar.clear();
+            interrupt::go_on()?;
             report.error(&estimate, self.scene.quality.max_error, start.elapsed());
         }
         if !self.verify && self.error_map.is_none() {
@@ -301,7 +339,7 @@ fn override_by_options(scene: &mut SceneFile, args: &SceneArgs) {
     set_some(&mut quality.adapter, args.adapter.as_ref());
 }
 
-/// Refuses a target of the wrong kind or in a folder that is not there.
+/// Refuses a target of the wrong kind, in a folder that is not there, or in one that takes no file.
 pub(crate) fn check_target(path: &Path, extensions: &[&str], kind: &str) -> Result<(), Failure> {
     let extension = path.extension().map(|e| e.to_string_lossy().to_lowercase()).unwrap_or_default();
     if !extensions.contains(&extension.as_str()) {
@@ -316,5 +354,5 @@ pub(crate) fn check_target(path: &Path, extensions: &[&str], kind: &str) -> Resu
             folder.display()
         )));
     }
-    Ok(())
+    Ok(check_writable(path).map_err(tetrascope::Error::Io)?)
 }

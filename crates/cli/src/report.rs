@@ -1,6 +1,8 @@
 //! What the program says: lines for people or one JSON object, and warnings on standard error.
 
+use std::io::Write;
 use std::path::Path;
+use std::sync::OnceLock;
 use std::time::Duration;
 
 use serde_json::{Map, Value, json};
@@ -9,6 +11,8 @@ use tetrascope::{
     Gradients, Integration, LengthAxis, OrderWorth, Plan, Projection, Rendered, TargetBits, Volume, VolumeField, rough,
     short,
 };
+
+use crate::interrupt;
 
 /// Collects what was done; people read it line by line as it happens, machines at the end.
 #[derive(Debug)]
@@ -289,6 +293,7 @@ impl Report {
     }
 
     pub(crate) fn wrote(&mut self, path: &Path) {
+        interrupt::wrote(path);
         self.written.push(path.display().to_string());
         self.say("wrote", &path.display().to_string());
     }
@@ -387,10 +392,32 @@ pub(crate) fn object(value: &Value) {
     line(&format!("{value:#}"));
 }
 
-/// A line on standard output. A reader that went away (`| head`) is no error.
+/// Why standard output was not written, the first time.
+static NOT_SAID: OnceLock<String> = OnceLock::new();
+
+/// A line on standard output. A reader that went away (`| head`) is no error; any other failure is one at the end ([`not_said`]).
 pub(crate) fn line(text: &str) {
-    use std::io::Write;
-    let _ = writeln!(std::io::stdout().lock(), "{text}");
+    let mut output = std::io::stdout().lock();
+    note_failure(writeln!(output, "{text}").and_then(|()| output.flush()));
+}
+
+/// Notes what an attempt to write to standard output came to.
+pub(crate) fn note_failure(done: std::io::Result<()>) {
+    if let Err(error) = done
+        && error.kind() != std::io::ErrorKind::BrokenPipe
+    {
+        let _ = NOT_SAID.set(error.to_string());
+    }
+}
+
+/// Why the report is not whole, if it is not.
+pub(crate) fn not_said() -> Option<String> {
+    NOT_SAID.get().map(|problem| format!("standard output: cannot be written: {problem}; the report is not whole"))
+}
+
+/// The last line after Ctrl-C.
+pub(crate) fn interrupted(text: &str) {
+    to_stderr("interrupted", text);
 }
 
 pub(crate) fn warning(text: &str) {
@@ -402,7 +429,6 @@ pub(crate) fn error(text: &str) {
 }
 
 fn to_stderr(kind: &str, text: &str) {
-    use std::io::Write;
     // With standard error closed there is nowhere left to complain.
     let _ = writeln!(std::io::stderr().lock(), "{kind}: {text}");
 }

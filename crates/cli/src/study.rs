@@ -3,11 +3,14 @@
 use std::path::{Path, PathBuf};
 
 use serde_json::{Value, json};
-use tetrascope::{Backend, Choice, Plan, SceneFile, Volume, VolumeField, foresee_blank, make_folder, resolve_path};
+use tetrascope::{
+    Backend, Choice, Plan, SceneFile, Volume, VolumeField, check_writable, foresee_blank, make_folder, resolve_path,
+};
 use tetrascope_study::{Figure, Options, Outcome, Study, bytes_text, error_text, ms_text, percent_text};
 
 use crate::Failure;
 use crate::args::StudyArgs;
+use crate::interrupt;
 use crate::progress::Bar;
 use crate::render::{scene_as_seen, wrong_scene};
 use crate::report::{line, object, warning};
@@ -15,16 +18,19 @@ use crate::scene_paths::is_scene;
 
 pub(crate) fn run(args: &StudyArgs) -> Result<(), Failure> {
     // What is wrong with the folder is said before minutes of work, not after.
-    let was_there = args.output.is_dir();
+    // Where the study fails, those that are empty go again.
+    let missing: Vec<&Path> = args.output.ancestors().take_while(|folder| !is_there(folder)).collect();
+    missing.into_iter().rev().for_each(interrupt::made_folder);
     make_folder(&args.output).map_err(tetrascope::Error::Io)?;
+    check_writable(&args.output.join("study.html")).map_err(tetrascope::Error::Io)?;
+    if args.output.join("study.html").exists() {
+        interrupt::will_replace(format!("the study in {}", args.output.display()));
+    }
     let bar = Bar::new(false);
     let done = study(args, &bar);
     bar.clear();
-    if done.is_err() && !was_there {
-        // Empty, or it stays: nobody else's files are touched.
-        let _ = std::fs::remove_dir(&args.output);
-    }
     let study = done?;
+    interrupt::go_on()?;
     let paths = study.write(&args.output).map_err(failure)?;
     if args.json {
         let files: Vec<Value> = paths.iter().map(|path| json!(path.display().to_string())).collect();
@@ -39,6 +45,11 @@ pub(crate) fn run(args: &StudyArgs) -> Result<(), Failure> {
     Ok(())
 }
 
+/// Whether a folder need not be made; the empty path is the current one.
+fn is_there(folder: &Path) -> bool {
+    folder.as_os_str().is_empty() || folder.exists()
+}
+
 fn failure(error: tetrascope_study::Error) -> Failure {
     Failure::Input(error.to_string())
 }
@@ -51,6 +62,7 @@ fn study(args: &StudyArgs, bar: &Bar) -> Result<Study, Failure> {
     let volume = Volume::load(&resolve_path(&base_dir, &scene.mesh.path), solution.as_deref())?;
     let field = volume.field(scene.mesh.field.as_deref())?;
     bar.clear();
+    interrupt::go_on()?;
     let findings = volume.decomposition.counts.findings();
     let warnings = volume.warnings.iter().chain(&findings).chain(&field.field.warnings).cloned();
     warnings.chain(field.on_mesh.warning()).for_each(|text| warning(&text));
@@ -59,6 +71,7 @@ fn study(args: &StudyArgs, bar: &Bar) -> Result<Study, Failure> {
     let scene_path = args.input.first().map(PathBuf::as_path).filter(|path| is_scene(path));
     let threads = args.threads.map(usize::from);
     let (own, warnings) = plan_of(&field, scene.clone(), threads, scene_path)?;
+    interrupt::go_on()?;
     let (start, _) = plan_of(&field, as_auto_has_it(scene), threads, scene_path)?;
     bar.clear();
     warnings.iter().for_each(|text| warning(text));

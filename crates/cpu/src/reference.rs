@@ -14,12 +14,11 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use tetrascope_integrate::{Integrator, TableDomain};
 use tetrascope_mesh::{TetMesh, ascending, scalar_base};
 use tetrascope_order::Guarantee;
-use tetrascope_scene::{Counts, OrderReport, Plan, Progress, Rendered, Stage, Stopwatch, check_scalars};
-use tetrascope_view::LinearImage;
+use tetrascope_scene::{Counts, OrderReport, Plan, PlanError, Progress, Rendered, Stage, Stopwatch, check_scalars};
 
 use crate::RenderError;
 use crate::domain::table_domain;
-use crate::error::on_threads;
+use crate::error::{empty_picture, on_threads};
 use crate::geometry::{ClipCell, PixelBox, PixelSpace, Points, is_outside_rectangle};
 use crate::grid::{Bins, Tile, TileGrid};
 use ray::{Fragment, Ray, RayComposer};
@@ -37,7 +36,8 @@ const TILE_SIDE: u32 = 16;
 /// # Errors
 /// [`RenderError`] if `scalars` does not fit the mesh, holds a value that is not finite where a tetrahedron uses it, or if
 /// the plan's integration has no meaning with its optical model, is out of range in the size of its table, or is the one that is
-/// defined on a fan of triangles ([`Integration::Vertex`]) and has no meaning along a ray.
+/// defined on a fan of triangles ([`Integration::Vertex`]) and has no meaning along a ray; [`PlanError::Interrupted`] between two tiles,
+/// [`PlanError::Memory`] for a picture that is too large.
 ///
 /// [`Integration::Vertex`]: tetrascope_integrate::Integration::Vertex
 pub fn render(mesh: &TetMesh, scalars: &[f64], plan: &Plan, progress: &dyn Progress) -> Result<Rendered, RenderError> {
@@ -106,6 +106,7 @@ fn render_here(mesh: &TetMesh, scalars: &[f64], plan: &Plan, progress: &dyn Prog
     if plan.integration.needs_table() {
         watch.lap(Stage::Tabulate);
     }
+    progress.go_on()?;
     let composer = RayComposer::new(integrator, plan, mesh, scalars);
     watch.lap(Stage::Prepare);
 
@@ -148,18 +149,21 @@ fn render_here(mesh: &TetMesh, scalars: &[f64], plan: &Plan, progress: &dyn Prog
         fragments: AtomicU64::new(0),
         crossings: AtomicU64::new(0),
     };
+    progress.go_on()?;
     let done = AtomicU64::new(0);
     let total = grid.len() as u64;
+    // Before the work: afterwards it would be lost.
+    let mut image = empty_picture(space.size)?;
     let tiles: Vec<Vec<[f32; 4]>> = (0..grid.len())
         .into_par_iter()
         .map(|index| {
+            progress.go_on()?;
             let pixels = job.draw_tile(index);
             progress.report(Stage::Rasterize, done.fetch_add(1, Ordering::Relaxed) + 1, total);
-            pixels
+            Ok(pixels)
         })
-        .collect();
+        .collect::<Result<_, PlanError>>()?;
 
-    let mut image = LinearImage::transparent(space.size[0], space.size[1]);
     for (index, pixels) in tiles.iter().enumerate() {
         let tile = grid.tile(index);
         for (row, line) in pixels.chunks_exact(tile.width as usize).enumerate() {

@@ -15,7 +15,9 @@ use std::time::Duration;
 
 use tetrascope_integrate::Integration;
 use tetrascope_order::Guarantee;
-use tetrascope_scene::{Counts, GpuPath, OrderReport, Plan, Progress, Rendered, Stage, Stopwatch, TargetBits};
+use tetrascope_scene::{
+    Counts, GpuPath, OrderReport, Plan, PlanError, Progress, Rendered, Stage, Stopwatch, TargetBits,
+};
 use tetrascope_shaders::layout::TILE_OPEN;
 use tetrascope_view::{LinearImage, View};
 use wgpu::Buffer;
@@ -42,7 +44,7 @@ const OUTSIDE: usize = 3;
 pub(crate) struct Drawing<'a> {
     pub(crate) renderer: &'a GpuRenderer,
     pub(crate) plan: &'a Plan,
-    progress: &'a dyn Progress,
+    pub(crate) progress: &'a dyn Progress,
     /// In the mesh's own coordinates.
     pub(crate) view: View,
     pub(crate) path: Path,
@@ -122,6 +124,7 @@ impl<'a> Drawing<'a> {
             self.source = Source::Made;
         }
         let means = self.means(kept, &mut watch)?;
+        self.progress.go_on()?;
         let (mut guarantee, mut rings, mut cyclic) = (Guarantee::Unsorted, 0, 0);
         match self.source {
             Source::AsTheyCome => {}
@@ -143,6 +146,7 @@ impl<'a> Drawing<'a> {
             (guarantee, rings, cyclic) = (made.guarantee, made.rings, made.cyclic);
         }
         watch.lap(Stage::Order);
+        self.progress.go_on()?;
 
         let sort = InPixels::of(self.plan, rings > 0);
         if let InPixels::Window(window) = sort
@@ -157,11 +161,14 @@ impl<'a> Drawing<'a> {
         let state = sort.state(kept.slice(&renderer.gpu));
         let mut waiting = parts(size, renderer.gpu.largest_binding(), Target::largest_side(&renderer.gpu), state);
         waiting.reverse();
-        let mut image = LinearImage::transparent(size[0], size[1]);
+        let bytes = 16 * u64::from(size[0]) * u64::from(size[1]);
+        let mut image =
+            LinearImage::try_transparent(size[0], size[1]).ok_or(PlanError::Memory { what: "the picture", bytes })?;
         let mut counts = Counts { cells: u64::from(renderer.mesh.cell_count), cyclic, ..Counts::default() };
         let mut stages = Vec::new();
         let mut is_first = true;
         while let Some(part) = waiting.pop() {
+            self.progress.go_on()?;
             let outcome = match self.draw_part(kept, &means, sort, part) {
                 // Fewer cells at a time make shorter loops.
                 Err(GpuError::LoopCut { .. }) if kept.shorten_loops(&renderer.gpu) => {

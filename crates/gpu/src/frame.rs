@@ -49,6 +49,7 @@ impl Drawing<'_> {
         self.order(&mut encoder, &mut laps, means, &memory, &resources)?;
         let blocks = memory.block_starts(mesh.cell_count, self.path != Path::Compute);
         for (number, &first) in blocks.iter().enumerate() {
+            self.progress.go_on()?;
             if number > 0 {
                 // What a block is told is written between two submissions.
                 let full = std::mem::replace(&mut encoder, gpu.encoder("block"));
@@ -70,6 +71,7 @@ impl Drawing<'_> {
         let mut outcome = self.read(memory, encoder, laps, part)?;
         // Pixels that sort by themselves are run until none is open.
         while outcome.is_open() {
+            self.progress.go_on()?;
             let mut encoder = gpu.encoder("sort on");
             let mut laps = Laps::new(renderer.stopwatch.as_ref());
             self.run_sorted(&mut encoder, &mut laps, means, &resources, (sort, slice), frame.tiles)?;

@@ -37,11 +37,21 @@ pub enum IoError {
         remedy: String,
     },
     /// A file was not written; nothing is left in its place.
-    #[error("{}: cannot be written: {problem}; check the folder and its permissions", path.display())]
+    #[error("{}: cannot be written: {problem}; {remedy}", path.display())]
     Write {
         /// The file.
         path: PathBuf,
         /// What the operating system or the encoder says.
         problem: String,
+        /// What the user can do.
+        remedy: &'static str,
+    },
+    /// The memory that a file takes on its way out is not there; nothing was written.
+    #[error("{}: cannot be written: that takes {bytes} bytes, more memory than the system gives; free some memory", path.display())]
+    Memory {
+        /// The file.
+        path: PathBuf,
+        /// Bytes at least.
+        bytes: u64,
     },
 }

@@ -56,7 +56,7 @@ pub fn read_heights(path: &Path) -> Result<Vec<f64>, IoError> {
 /// [`IoError::Write`] when there are more heights than a mesh may have points (2³² - 1), one is not finite, or the file cannot be
 /// written; nothing is left of it then.
 pub fn write_heights(path: &Path, heights: &[f64]) -> Result<(), IoError> {
-    let refused = |problem: String| IoError::Write { path: path.to_owned(), problem };
+    let refused = |problem: String| IoError::Write { path: path.to_owned(), problem, remedy: "keep none of this mesh" };
     let count = u32::try_from(heights.len()).map_err(|_| refused(format!("there are {} heights", heights.len())))?;
     if let Some(index) = heights.iter().position(|height| !height.is_finite()) {
         return Err(refused(format!("height {index} is {}, which is not finite", heights[index])));

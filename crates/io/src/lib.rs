@@ -3,7 +3,7 @@
 //! [`read_mesh`] finds the reader by the file's content, then by its extension, and gives a [`Loaded`]: the dataset as the
 //! file has it and what was odd about it. Memory is never reserved from a count that the file merely declares.
 //! [`write_png`] and [`write_exr`] write to a temporary file beside the target and rename it, so that a failed run leaves
-//! no half-written picture; [`read_picture`] reads either back; [`write_heights`] does the same for what the power order found out about a mesh.
+//! no half-written picture, and [`end_writing`] leaves nothing of what is under way; [`read_picture`] reads either back; [`write_heights`] does the same for what the power order found out about a mesh.
 //!
 //! ```no_run
 //! use std::path::Path;
@@ -39,8 +39,8 @@ pub use error::IoError;
 pub use heights::{read_heights, write_heights};
 pub use open::{read_mesh, readers};
 pub use picture::{
-    PictureFile, PngImage, encode_png, make_folder, read_exr, read_picture, read_png, write_bytes, write_exr,
-    write_image, write_png,
+    PictureFile, PngImage, check_writable, encode_png, end_writing, make_folder, read_exr, read_picture, read_png,
+    write_bytes, write_exr, write_files, write_image, write_png,
 };
 pub use read::{Loaded, MeshReader, Source};
 pub use vtk::write_vtu;

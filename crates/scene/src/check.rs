@@ -10,6 +10,17 @@ use crate::{GpuPath, Interpolation, IsosurfaceMethod, Mixing, Plan};
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum PlanError {
+    /// Whoever is told of the progress wants no more of it ([`crate::Progress::is_stopped`]).
+    #[error("interrupted; there is no picture")]
+    Interrupted,
+    /// The memory that the system gives is at its end.
+    #[error("{what} takes {} bytes, more memory than the system gives; ask for a smaller one, or free some memory", .bytes)]
+    Memory {
+        /// What it was wanted for.
+        what: &'static str,
+        /// Bytes at least.
+        bytes: u64,
+    },
     /// The field does not fit the mesh.
     #[error("the field has {scalars} values for {points} points; pass one value a point")]
     ScalarCount {

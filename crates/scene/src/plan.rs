@@ -252,12 +252,27 @@ impl fmt::Display for Stage {
     }
 }
 
-/// Told how far a back end has come; called from any thread.
+/// Told how far a back end has come, and asked whether it is to go on; called from any thread.
 pub trait Progress: Sync {
     /// `done` of `total` steps of a stage are finished; `total` is the same in every call of one stage.
     ///
     /// Calls of one stage may arrive out of order.
     fn report(&self, stage: Stage, done: u64, total: u64);
+
+    /// Whether the work is to be given up. Asked between tiles and steps; where it is, back ends give [`crate::PlanError::Interrupted`] and no
+    /// picture.
+    /// Whoever says so once goes on saying it.
+    fn is_stopped(&self) -> bool {
+        false
+    }
+
+    /// Nothing, or that the work is to be given up.
+    ///
+    /// # Errors
+    /// [`crate::PlanError::Interrupted`] where [`Self::is_stopped`] says so.
+    fn go_on(&self) -> Result<(), crate::PlanError> {
+        if self.is_stopped() { Err(crate::PlanError::Interrupted) } else { Ok(()) }
+    }
 }
 
 /// Tells nobody.

@@ -8,6 +8,11 @@ use tetrascope::{Progress, Stage};
 pub trait StudyProgress: Sync {
     /// `done` of `total` parts are finished, and `step` is under way. `total` is the same in every call, `done` never less than before.
     fn report(&self, step: &str, done: u64, total: u64);
+
+    /// Whether the study is to be given up, as [`Progress::is_stopped`].
+    fn is_stopped(&self) -> bool {
+        false
+    }
 }
 
 /// Tells nobody.
@@ -52,5 +57,20 @@ impl Progress for Meter<'_> {
         if stage == Stage::Rasterize {
             self.at("the reference", REFERENCE * done / total.max(1));
         }
+    }
+
+    fn is_stopped(&self) -> bool {
+        self.told.is_stopped()
+    }
+}
+
+/// Frames, of which nobody is told how far each has come; they end where the study is to be given up.
+pub(crate) struct Untold<'a>(pub(crate) &'a Meter<'a>);
+
+impl Progress for Untold<'_> {
+    fn report(&self, _stage: Stage, _done: u64, _total: u64) {}
+
+    fn is_stopped(&self) -> bool {
+        self.0.is_stopped()
     }
 }

@@ -2,10 +2,10 @@
 
 use std::time::{Duration, Instant};
 
-use tetrascope::{ErrorFigures, LinearImage, PixelDifference, Plan, Rendered, Silent, Stage, VolumeField};
+use tetrascope::{ErrorFigures, LinearImage, PixelDifference, Plan, Progress, Rendered, Stage, VolumeField};
 
 use crate::measure::{add_stages, memory_of, stages_of};
-use crate::progress::Meter;
+use crate::progress::{Meter, Untold};
 use crate::turn::{Pooling, reduced, turned};
 use crate::{Error, LeftOut, Options, Outcome, Setting, Spread};
 
@@ -31,13 +31,16 @@ struct Run {
 
 impl Runs<'_> {
     /// Draws all settings, and compares the frame of the scene's own view; those that fail are left out.
+    ///
+    /// # Errors
+    /// [`Error::Tetrascope`] where the study is to be given up, and nothing else.
     pub(crate) fn measure(
         &self,
         settings: Vec<Setting>,
         exact: &LinearImage,
         options: &Options,
         left_out: &mut Vec<LeftOut>,
-    ) -> Vec<Outcome> {
+    ) -> Result<Vec<Outcome>, Error> {
         let rounds = self.angles.len().min(3);
         let per_visit = self.angles.len().div_ceil(rounds);
         let visits: Vec<&[f64]> = self.angles.chunks(per_visit).collect();
@@ -53,7 +56,10 @@ impl Runs<'_> {
                     let (first, made) = (begin.elapsed(), made_in(&rendered));
                     runs.push(Run { setting, first, made, times: Vec::new(), stages: Vec::new(), outcome: None });
                 }
-                Err(error) => left_out.push(LeftOut { name: setting.name, reason: error.to_string() }),
+                Err(error) => {
+                    self.go_on()?;
+                    left_out.push(LeftOut { name: setting.name, reason: error.to_string() });
+                }
             }
         }
         for visit in visits {
@@ -63,13 +69,21 @@ impl Runs<'_> {
                 self.meter.frames(&run.setting.name, done, total);
                 match self.visit(&mut run, visit, exact, options) {
                     Ok(()) => kept.push(run),
-                    Err(error) => left_out.push(LeftOut { name: run.setting.name, reason: error.to_string() }),
+                    Err(error) => {
+                        self.go_on()?;
+                        left_out.push(LeftOut { name: run.setting.name, reason: error.to_string() });
+                    }
                 }
             }
             runs = kept;
         }
         self.meter.frames("done", total, total);
-        runs.into_iter().filter_map(Run::finish).collect()
+        Ok(runs.into_iter().filter_map(Run::finish).collect())
+    }
+
+    /// A frame that was not drawn as the study is to be given up is no reason to leave its setting out.
+    fn go_on(&self) -> Result<(), Error> {
+        self.meter.go_on().map_err(tetrascope::Error::from).map_err(Error::from)
     }
 
     /// One frame that is not timed, and then those that are.
@@ -91,7 +105,7 @@ impl Runs<'_> {
     fn draw(&self, setting: &Setting, angle: f64) -> Result<Rendered, tetrascope::Error> {
         let center = self.field.facts.center().to_array();
         let view = if angle == 0.0 { setting.plan.view } else { turned(&setting.plan.view, center, angle) };
-        self.field.render(&Plan { view, ..setting.plan.clone() }, &Silent)
+        self.field.render(&Plan { view, ..setting.plan.clone() }, &Untold(&self.meter))
     }
 
     fn outcome(

@@ -3,11 +3,11 @@
 use std::time::{Duration, Instant};
 
 use tetrascope::{
-    AdapterDescription, Backend, Integration, Interpolation, LinearImage, MeshFacts, OrderMethod, Plan, Silent,
+    AdapterDescription, Backend, Integration, Interpolation, LinearImage, MeshFacts, OrderMethod, Plan, Progress,
     TargetBits, VolumeField, adapter_of_auto, adapters,
 };
 
-use crate::progress::Meter;
+use crate::progress::{Meter, Untold};
 use crate::rounds::Runs;
 use crate::settings::{Scope, settings};
 use crate::turn::{Pooling, angles, reduced, shrunk};
@@ -106,7 +106,8 @@ impl Study {
     /// is left out with its reason.
     ///
     /// # Errors
-    /// [`Error::Tetrascope`] if the reference is not drawn, [`Error::NothingToCompare`] if no setting is.
+    /// [`Error::Tetrascope`] if the reference is not drawn, or the study is to be given up ([`StudyProgress::is_stopped`]);
+    /// [`Error::NothingToCompare`] if no setting is drawn.
     pub fn run(
         field: &VolumeField<'_>,
         start: &Plan,
@@ -116,18 +117,19 @@ impl Study {
         let begin = Instant::now();
         let meter = Meter::new(progress);
         let start = &start_of(start, options);
+        field.check_memory(&exact_plan(start), &[])?;
         let reference = Instant::now();
         let exact = field.render(&exact_plan(start), &meter)?.image;
         let reference_time = reference.elapsed();
 
         let mut left_out = Vec::new();
         meter.frames("opening devices", 0, 1);
-        let opened = open_places(field, start, options, &mut left_out);
+        let opened = open_places(field, start, options, &meter, &mut left_out)?;
         let (settings, not_there) = list(field, start, options, &opened)?;
         left_out.extend(not_there);
 
         let runs = Runs { field, angles: angles(options.frame_count(), options.turn_degrees), meter };
-        let measured = runs.measure(settings, &exact, options, &mut left_out);
+        let measured = runs.measure(settings, &exact, options, &mut left_out)?;
         if measured.is_empty() {
             return Err(Error::NothingToCompare { left_out });
         }
@@ -202,13 +204,14 @@ fn open_places(
     field: &VolumeField<'_>,
     start: &Plan,
     options: &Options,
+    meter: &Meter<'_>,
     left_out: &mut Vec<LeftOut>,
-) -> Vec<(Place, Duration)> {
+) -> Result<Vec<(Place, Duration)>, Error> {
     let mut opened = vec![(Place::Cpu, Duration::ZERO)];
     let mut leave_out = |name: &str, reason: String| left_out.push(LeftOut { name: name.to_owned(), reason });
     if !options.uses_gpu {
         leave_out("gpu", "it was not asked for".to_owned());
-        return opened;
+        return Ok(opened);
     }
     let found: Vec<AdapterDescription> = if options.adapter.is_some() { Vec::new() } else { adapters() };
     if options.adapter.is_none() && adapter_of_auto(&found).is_none() {
@@ -216,7 +219,7 @@ fn open_places(
             "gpu",
             "no graphics card was found; software that poses as one is studied if it is asked for by name".to_owned(),
         );
-        return opened;
+        return Ok(opened);
     }
     let targets = TargetBits::ALL.map(Place::GpuTriangles);
     for place in [Place::GpuCompute].into_iter().chain(targets.into_iter().rev()) {
@@ -226,12 +229,14 @@ fn open_places(
         tiny.isosurfaces = None;
         place.take(&mut tiny);
         let begin = Instant::now();
-        match field.render(&tiny, &Silent) {
+        let drawn = field.render(&tiny, &Untold(meter));
+        meter.go_on().map_err(tetrascope::Error::from)?;
+        match drawn {
             Ok(_) => opened.push((place, begin.elapsed())),
             Err(error) => leave_out(&place.to_string(), error.to_string()),
         }
     }
-    opened
+    Ok(opened)
 }
 
 fn with_frontiers(mut outcomes: Vec<Outcome>) -> Vec<Outcome> {

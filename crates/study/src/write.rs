@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use tetrascope::{IoError, make_folder, write_bytes};
+use tetrascope::{make_folder, write_files};
 
 use crate::{Error, Figure, Study, chart_svg, csv, html, json};
 
@@ -20,24 +20,21 @@ impl Study {
 
     /// Writes `study.csv`, `study.json`, `study.svg` and `study.html` into a folder, which is made if it is not there; gives their paths.
     ///
-    /// Each file is written whole or not at all, and replaces one of an earlier study.
+    /// All four are complete before the first replaces one of an earlier study: should there be no room for one, the earlier study stays as it
+    /// was.
     ///
     /// # Errors
     /// [`Error::Tetrascope`] if the folder cannot be made or a file not written.
     pub fn write(&self, folder: &Path) -> Result<Vec<PathBuf>, Error> {
         make_folder(folder)?;
-        // All texts are made before the first is written.
         let files = [
             ("study.csv", csv(self)),
             ("study.json", format!("{:#}\n", json(self))),
             ("study.svg", chart_svg(self, Figure::Largest)),
             ("study.html", html(self)),
-        ];
-        let write = |(name, text): (&str, String)| {
-            let path = folder.join(name);
-            write_bytes(&path, text.as_bytes())?;
-            Ok(path)
-        };
-        files.into_iter().map(write).collect::<Result<_, IoError>>().map_err(Error::from)
+        ]
+        .map(|(name, text)| (folder.join(name), text));
+        write_files(files.iter().map(|(path, text)| (path.as_path(), text.as_bytes())))?;
+        Ok(files.map(|(path, _)| path).to_vec())
     }
 }

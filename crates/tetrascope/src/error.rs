@@ -2,12 +2,13 @@
 
 use std::path::PathBuf;
 
+use crate::MemoryError;
 use tetrascope_cpu::RenderError;
 use tetrascope_estimate::EstimateError;
 use tetrascope_gpu::GpuError;
 use tetrascope_io::IoError;
 use tetrascope_mesh::MeshError;
-use tetrascope_scene::{FieldError, SceneError, SceneSyntaxError, WriteSceneError};
+use tetrascope_scene::{FieldError, PlanError, SceneError, SceneSyntaxError, WriteSceneError};
 
 /// What went wrong, with the place and a remedy in the message.
 #[derive(Debug, thiserror::Error)]
@@ -50,10 +51,32 @@ pub enum Error {
     /// Nothing can be said of a picture's error.
     #[error(transparent)]
     Estimate(#[from] EstimateError),
+    /// More memory is asked for than there is.
+    #[error(transparent)]
+    Memory(#[from] MemoryError),
     /// A mesh that is built in goes by another name.
     #[error("there is no built-in mesh \"{}\"; there is {}", name.display(), crate::SAMPLE)]
     NoSuchSample {
         /// The name asked for.
         name: PathBuf,
     },
+}
+
+impl Error {
+    /// Whether nothing failed but that the work was to be given up, as [`Progress::is_stopped`](tetrascope_scene::Progress::is_stopped) said.
+    pub fn is_interrupted(&self) -> bool {
+        let plan = match self {
+            Self::Render(RenderError::Plan(plan))
+            | Self::Gpu(GpuError::Plan(plan))
+            | Self::Estimate(EstimateError::Render(RenderError::Plan(plan))) => plan,
+            _ => return false,
+        };
+        *plan == PlanError::Interrupted
+    }
+}
+
+impl From<PlanError> for Error {
+    fn from(error: PlanError) -> Self {
+        Self::Render(error.into())
+    }
 }

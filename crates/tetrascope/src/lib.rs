@@ -36,7 +36,9 @@ mod error;
 mod errors;
 mod heights;
 mod made;
+mod memory;
 mod order_worth;
+mod precision;
 mod render;
 mod threads;
 mod volume;
@@ -44,6 +46,7 @@ mod volume;
 pub use backend::adapter_of_auto;
 pub use check::{MeshCheck, OrderCheck, seen_pixels};
 pub use error::Error;
+pub use memory::{MemoryError, memory_left};
 pub use order_worth::OrderWorth;
 pub use render::{Picture, is_blank, render_scene, render_volume, warn_of_non_finite};
 pub use volume::{SAMPLE, Volume, VolumeField, is_builtin, resolve_path};
@@ -58,8 +61,9 @@ pub use tetrascope_integrate::{
     deviation,
 };
 pub use tetrascope_io::{
-    IoError, Loaded, PictureFile, PngImage, encode_png, make_folder, read_exr, read_heights, read_mesh, read_picture,
-    read_png, readers, write_bytes, write_exr, write_heights, write_image, write_png, write_vtu,
+    IoError, Loaded, PictureFile, PngImage, check_writable, encode_png, end_writing, make_folder, read_exr,
+    read_heights, read_mesh, read_picture, read_png, readers, write_bytes, write_exr, write_files, write_heights,
+    write_image, write_png, write_vtu,
 };
 pub use tetrascope_mesh::{
     ArrayValues, CellKind, Cells, ChordLengths, DataArray, Dataset, Decomposition, MeshError, StructuredBlock, TetMesh,
@@ -73,8 +77,8 @@ pub use tetrascope_scene::{
     DeviceBuffer, DeviceReport, Field, FieldError, FieldOnMesh, Fragments, GpuOptions, GpuPath, Gradients,
     Interpolation, IsosurfaceMethod, IsosurfaceMethodName, IsosurfacePlan, IsosurfaceSection, LengthAxisName,
     LightDirection, LightName, LightSection, Lighting, MapWork, MeshFacts, Mixing, OrderReport, Plan, PlanError,
-    Progress, ProjectionName, Rendered, Scene, SceneError, SceneFile, SceneSyntaxError, Shading, Silent, Stage,
-    TableWork, TargetBits, Work, WorkBuffer, explain_blank, foresee_blank, rough, select_field, short,
+    Progress, ProjectionName, Rendered, Scene, SceneError, SceneFile, SceneSyntaxError, Shading, Sharpness, Silent,
+    Stage, TableWork, TargetBits, Work, WorkBuffer, explain_blank, foresee_blank, rough, select_field, short,
     summarize_arrays,
 };
 pub use tetrascope_view::{Camera, ErrorFigures, LinearImage, PixelDifference, Projection, View, ViewError};

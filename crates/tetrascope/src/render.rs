@@ -63,6 +63,7 @@ pub fn render_volume(volume: &Volume, scene: &SceneFile, progress: &dyn Progress
     let start = Instant::now();
     let plan = field.plan(&mut completed)?;
     let chosen = start.elapsed();
+    field.check_memory(&plan, &[])?;
     let rendered = field.render(&plan, progress)?;
     let order = field.order_worth(&plan, &rendered);
     completed.warnings.extend(field.keep_heights(&completed, &plan));
@@ -73,6 +74,7 @@ pub fn render_volume(volume: &Volume, scene: &SceneFile, progress: &dyn Progress
     warnings.extend(field.on_mesh.warning());
     warnings.extend(completed.warnings);
     warnings.extend(order.warnings.iter().cloned());
+    warnings.extend(field.precision_warnings(&plan));
     warnings.extend(warn_of_non_finite(&rendered.image));
     if is_blank(&rendered.image) {
         warnings.push("the picture is blank".to_owned());

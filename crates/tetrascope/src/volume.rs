@@ -7,7 +7,7 @@ use std::time::{Duration, Instant};
 use tetrascope_cpu::{CpuRenderer, reference};
 use tetrascope_gpu::GpuError;
 use tetrascope_io::read_mesh;
-use tetrascope_mesh::{Dataset, Decomposition, decompose};
+use tetrascope_mesh::{Cells, Dataset, Decomposition, StructuredBlock, decompose};
 use tetrascope_scene::{
     ArraySummary, Backend, Field, FieldOnMesh, MeshFacts, Plan, Progress, Rendered, Stage, Work, place_on_mesh,
     select_field, summarize_arrays,
@@ -15,6 +15,7 @@ use tetrascope_scene::{
 
 use crate::Error;
 use crate::made::Made;
+use crate::memory;
 use crate::threads::on_threads;
 
 /// The path of the built-in sample: a name in place of a file, in scene files and on the command line.
@@ -48,7 +49,7 @@ impl Volume {
     /// The path [`SAMPLE`] stands for [`Volume::sample`].
     ///
     /// # Errors
-    /// [`Error::Io`] if the file is not read, [`Error::Mesh`] if nothing in it has a volume.
+    /// [`Error::Io`] if the file is not read, [`Error::Mesh`] if nothing in it has a volume, [`Error::Memory`] if either cannot be held.
     pub fn load(path: &Path, solution: Option<&Path>) -> Result<Self, Error> {
         if is_builtin(path) {
             return if path == Path::new(SAMPLE) {
@@ -58,6 +59,9 @@ impl Volume {
             };
         }
         let start = Instant::now();
+        // What cannot be looked at is the reader's to tell.
+        let bytes_of = |path: &Path| std::fs::metadata(path).map_or(0, |metadata| metadata.len());
+        memory::check_file(bytes_of(path) + solution.map_or(0, bytes_of))?;
         let loaded = read_mesh(path, solution)?;
         let read = start.elapsed();
         let mut volume = Self::from_dataset(loaded.dataset, &path.display().to_string())?;
@@ -71,8 +75,9 @@ impl Volume {
     /// A mesh that the caller has made. `source_name` is what messages call it.
     ///
     /// # Errors
-    /// [`Error::Mesh`] if nothing in it has a volume.
+    /// [`Error::Mesh`] if nothing in it has a volume, [`Error::Memory`] if its tetrahedra cannot be held.
     pub fn from_dataset(dataset: Dataset, source_name: &str) -> Result<Self, Error> {
+        memory::check_mesh(cell_count(&dataset.cells), dataset.points.len())?;
         let start = Instant::now();
         let decomposition =
             decompose(&dataset).map_err(|error| Error::Mesh { source_name: source_name.to_owned(), error })?;
@@ -141,7 +146,7 @@ impl VolumeField<'_> {
     /// Draws the field as the plan says, with the back end that the plan names and no other.
     ///
     /// # Errors
-    /// [`Error::Render`]; with the back end `gpu` [`Error::Gpu`]: a device that was lost is opened anew for the next picture.
+    /// [`Error::Render`]; [`Error::is_interrupted`] is true of it where `progress` said so; with the back end `gpu` [`Error::Gpu`]: a device that was lost is opened anew for the next picture.
     pub fn render(&self, plan: &Plan, progress: &dyn Progress) -> Result<Rendered, Error> {
         let start = Instant::now();
         let (mut rendered, prepared) = match plan.backend {
@@ -187,6 +192,13 @@ impl VolumeField<'_> {
     /// [`Self::renderer`], made on so many threads if it is not made yet.
     pub(crate) fn renderer_on(&self, threads: Option<usize>) -> Result<&CpuRenderer, Error> {
         on_threads(threads, || self.renderer())?
+    }
+}
+
+fn cell_count(cells: &Cells) -> usize {
+    match cells {
+        Cells::Unstructured(cells) => cells.kinds.len(),
+        Cells::Structured(blocks) => blocks.iter().map(StructuredBlock::cell_count).sum(),
     }
 }
 

@@ -14,6 +14,14 @@ impl LinearImage {
         Self { width, height, pixels: vec![[0.0; 4]; width as usize * height as usize] }
     }
 
+    /// The same where the memory for it may not be there: `None` then, and nothing is held.
+    pub fn try_transparent(width: u32, height: u32) -> Option<Self> {
+        let size = (width as usize).checked_mul(height as usize)?;
+        // Asked for and given back: what the system hands out next is zero already, and need not be touched.
+        Vec::<[f32; 4]>::new().try_reserve_exact(size).ok()?;
+        Some(Self::transparent(width, height))
+    }
+
     /// A picture from its pixels, row after row; `None` unless there are `width * height` of them.
     pub fn from_pixels(width: u32, height: u32, pixels: Vec<[f32; 4]>) -> Option<Self> {
         (pixels.len() == width as usize * height as usize).then_some(Self { width, height, pixels })

@@ -49,12 +49,11 @@ use tetrascope_mesh::{
 };
 use tetrascope_order::{Cells, CycleRemedy, Guarantee, MeshVisibility, OrderMethod, PixelSort, VisibilityOrder};
 use tetrascope_scene::{
-    Counts, Gradients, Interpolation, OrderReport, Plan, Progress, Rendered, Stage, Stopwatch, check_scalars,
+    Counts, Gradients, Interpolation, OrderReport, Plan, PlanError, Progress, Rendered, Stage, Stopwatch, check_scalars,
 };
-use tetrascope_view::LinearImage;
 
 use crate::RenderError;
-use crate::error::on_threads;
+use crate::error::{empty_picture, on_threads};
 use crate::geometry::{PixelSpace, Points};
 use crate::grid::{Bins, TileGrid};
 use cell::{NOWHERE, Outline};
@@ -196,7 +195,8 @@ impl CpuRenderer {
     /// The same plan gives the same bits, whatever the number of threads.
     ///
     /// # Errors
-    /// [`RenderError::Threads`] if the plan asks for threads that cannot be started, [`RenderError::Plan`] if its methods do not go together or its tables have no possible size.
+    /// [`RenderError::Threads`] if the plan asks for threads that cannot be started, [`RenderError::Plan`] if its methods do not go together or its tables have no possible size,
+    /// [`PlanError::Interrupted`] between two steps, and [`PlanError::Memory`] for a picture that is too large. What is kept from frame to frame is as good as before.
     pub fn render(&self, plan: &Plan, progress: &dyn Progress) -> Result<Rendered, RenderError> {
         plan.check()?;
         on_threads(plan.threads, || self.render_here(plan, progress))?
@@ -231,6 +231,9 @@ impl CpuRenderer {
         if lookup.is_some() {
             watch.lap(Stage::Tabulate);
         }
+        progress.go_on()?;
+        // Before the work: afterwards it would be lost.
+        let mut image = empty_picture(space.size)?;
 
         let mut scratch = self.scratch.lock().unwrap_or_else(PoisonError::into_inner).take().unwrap_or_default();
         let Scratch { points, outlines, records, tiles, held } = &mut scratch;
@@ -256,6 +259,7 @@ impl CpuRenderer {
             order = order.cut_cycles(cells, view.viewpoint());
         }
         watch.lap(Stage::Order);
+        progress.go_on()?;
 
         // Rings that could not be cut are left to the pixels.
         let rings_sort = plan.cycles != CycleRemedy::Report && !order.cycles.is_empty();
@@ -288,11 +292,13 @@ impl CpuRenderer {
             in_ring: &in_ring,
         };
         records.resize_with(order.front_to_back.len().div_ceil(CHUNK), Records::default);
-        records
-            .par_iter_mut()
-            .zip(order.front_to_back.par_chunks(CHUNK))
-            .enumerate()
-            .for_each(|(chunk, (records, cells))| setup.fill(chunk * CHUNK, cells, records));
+        records.par_iter_mut().zip(order.front_to_back.par_chunks(CHUNK)).enumerate().try_for_each(
+            |(chunk, (records, cells))| {
+                progress.go_on()?;
+                setup.fill(chunk * CHUNK, cells, records);
+                Ok::<_, PlanError>(())
+            },
+        )?;
         watch.lap(Stage::SetUp);
 
         let sorting = Sorting::of(plan, rings_sort, held);
@@ -306,6 +312,7 @@ impl CpuRenderer {
             })
             .collect();
         watch.lap(Stage::Bin);
+        progress.go_on()?;
 
         let [fragments, crossings, sorted, most_held, lit] = [0; 5].map(AtomicU64::new);
         let done = AtomicU64::new(0);
@@ -322,7 +329,8 @@ impl CpuRenderer {
             level: self.level,
         };
         tiles.resize_with(grid.len(), tile::Pixels::default);
-        tiles.par_iter_mut().enumerate().with_max_len(1).for_each(|(index, pixels)| {
+        tiles.par_iter_mut().enumerate().with_max_len(1).try_for_each(|(index, pixels)| {
+            progress.go_on()?;
             let drawn = job.draw(index, pixels);
             fragments.fetch_add(drawn.fragments, Ordering::Relaxed);
             crossings.fetch_add(drawn.crossings, Ordering::Relaxed);
@@ -330,8 +338,8 @@ impl CpuRenderer {
             most_held.fetch_max(drawn.most_held, Ordering::Relaxed);
             lit.fetch_add(drawn.lit, Ordering::Relaxed);
             progress.report(Stage::Rasterize, done.fetch_add(1, Ordering::Relaxed) + 1, grid.len() as u64);
-        });
-        let mut image = LinearImage::transparent(space.size[0], space.size[1]);
+            Ok::<_, PlanError>(())
+        })?;
         let width = space.size[0] as usize;
         image.pixels_mut().par_chunks_mut(width).enumerate().for_each(|(y, line)| {
             let side = TILE_SIDE as usize;

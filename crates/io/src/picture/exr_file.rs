@@ -8,7 +8,10 @@ use exr::prelude::{
 };
 use tetrascope_view::LinearImage;
 
-use super::{refuse_empty, whole_file::write_whole};
+use super::{
+    refuse_empty,
+    whole_file::{ask_for_memory, write_whole},
+};
 use crate::{IoError, open::read_whole};
 
 /// How many pixels a byte of a compressed file may stand for. Deflate reaches 1032 bytes a byte, which is 258 pixels of
@@ -18,6 +21,9 @@ const PIXELS_PER_BYTE: u64 = 1024;
 /// Pictures up to this size are read whatever the file's length is: 4 megapixels are 64 MiB.
 const PIXELS_ALWAYS_READ: u64 = 1 << 22;
 
+/// Memory that a pixel takes on its way out: at most as much as in the picture, as channels and in the file.
+const BYTES_PER_PIXEL: u64 = 32;
+
 /// Writes a picture as OpenEXR: channels R, G, B, A, 32-bit float, linear, premultiplied, with no background; ZIP
 /// compression, which loses nothing. NaN and infinities are written as they are. The same picture gives the same bytes, whatever the
 /// number of threads.
@@ -25,10 +31,16 @@ const PIXELS_ALWAYS_READ: u64 = 1 << 22;
 /// The file appears whole or not at all.
 ///
 /// # Errors
-/// [`IoError::Write`] when the picture has no pixels or the file cannot be written; nothing is left of it then.
+/// [`IoError::Write`] when the picture has no pixels or the file cannot be written, [`IoError::Memory`] when it is too large; nothing is
+/// left of it then.
 pub fn write_exr(path: &Path, image: &LinearImage) -> Result<(), IoError> {
     refuse_empty(path, image)?;
-    let bytes = encode(image).map_err(|error| IoError::Write { path: path.to_owned(), problem: error.to_string() })?;
+    ask_for_memory(path, BYTES_PER_PIXEL * image.pixels().len() as u64)?;
+    let bytes = encode(image).map_err(|error| IoError::Write {
+        path: path.to_owned(),
+        problem: error.to_string(),
+        remedy: "draw a smaller picture",
+    })?;
     write_whole(path, &bytes)
 }
 

@@ -13,7 +13,7 @@ pub use exr_file::{read_exr, write_exr};
 pub use png_file::{PngImage, encode_png, read_png, write_png};
 pub use read::{PictureFile, read_picture};
 pub(crate) use whole_file::write_whole;
-pub use whole_file::{make_folder, write_bytes};
+pub use whole_file::{check_writable, end_writing, make_folder, write_bytes, write_files};
 
 use crate::{IoError, read::extension};
 
@@ -43,7 +43,7 @@ pub fn write_image(path: &Path, image: &LinearImage, background: [f32; 3]) -> Re
 fn refuse_empty(path: &Path, image: &LinearImage) -> Result<(), IoError> {
     if image.width() == 0 || image.height() == 0 {
         let problem = format!("the picture has {} x {} pixels", image.width(), image.height());
-        return Err(IoError::Write { path: path.to_owned(), problem });
+        return Err(IoError::Write { path: path.to_owned(), problem, remedy: "give it a size" });
     }
     Ok(())
 }

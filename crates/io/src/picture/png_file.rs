@@ -4,7 +4,10 @@ use std::{io, path::Path};
 
 use tetrascope_view::LinearImage;
 
-use super::{refuse_empty, whole_file::write_whole};
+use super::{
+    refuse_empty,
+    whole_file::{ask_for_memory, write_whole},
+};
 use crate::{IoError, open::read_whole};
 
 /// How many pixels a byte of a file may stand for. Deflate reaches 1032 bytes a byte, which is so many pixels of one 8-bit channel; what
@@ -19,6 +22,9 @@ const MOST_PIXELS: u64 = 1 << 28;
 
 /// Memory that the decoder may take for itself: lines, palettes, profiles and texts.
 const DECODER_BYTES: usize = 64 << 20;
+
+/// Memory that a pixel takes on its way out: its three bytes, and at most as many in the file.
+const BYTES_PER_PIXEL: u64 = 6;
 
 /// A picture as a PNG file has it: encoded samples, with straight alpha.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -38,11 +44,16 @@ pub struct PngImage {
 /// ([`LinearImage::to_srgb8`]). The file appears whole or not at all. The same picture gives the same bytes.
 ///
 /// # Errors
-/// [`IoError::Write`] when the picture has no pixels or the file cannot be written; nothing is left of it then.
+/// [`IoError::Write`] when the picture has no pixels or the file cannot be written, [`IoError::Memory`] when it is too large; nothing is
+/// left of it then.
 pub fn write_png(path: &Path, image: &LinearImage, background: [f32; 3]) -> Result<(), IoError> {
     refuse_empty(path, image)?;
-    let bytes = encode(image, background)
-        .map_err(|error| IoError::Write { path: path.to_owned(), problem: error.to_string() })?;
+    ask_for_memory(path, BYTES_PER_PIXEL * image.pixels().len() as u64)?;
+    let bytes = encode(image, background).map_err(|error| IoError::Write {
+        path: path.to_owned(),
+        problem: error.to_string(),
+        remedy: "draw a smaller picture",
+    })?;
     write_whole(path, &bytes)
 }
 

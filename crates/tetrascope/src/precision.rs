@@ -1,0 +1,63 @@
+//! What 32 bits cannot hold of a picture, said with it.
+
+use tetrascope_integrate::Integration;
+use tetrascope_scene::{Backend, Plan, Sharpness, TargetBits};
+
+use crate::VolumeField;
+
+/// Layers of cells, on average over all pixels, from which on blending into 16 bits is worth a word: it is off by some 3e-3 there.
+const DEEP: f64 = 100.0;
+
+impl VolumeField<'_> {
+    /// Where the picture of a plan is less right than usual because of the numbers that its back end computes with: sentences for people.
+    ///
+    /// The CPU draws cells in which the transfer function changes faster than 32 bits know a scalar in 64 bits, unless they have isosurfaces
+    /// or are lit; a GPU has no such numbers.
+    pub fn precision_warnings(&self, plan: &Plan) -> Vec<String> {
+        let mut warnings = Vec::new();
+        let has_effects = plan.isosurfaces.is_some() || plan.lighting.is_some();
+        let is_in_32_bits = plan.backend == Backend::Gpu || (plan.backend == Backend::Cpu && has_effects);
+        if is_in_32_bits && plan.integration == Integration::Exact {
+            let cells = self.cells_beyond_32_bits(plan);
+            if cells > 0 {
+                warnings.push(format!(
+                    "in {cells} tetrahedra the transfer function changes faster than 32-bit scalars can tell, and narrow peaks may be missed there; the back \
+                     end \"reference\"{} is right",
+                    if has_effects { "" } else { ", and \"cpu\"," }
+                ));
+            }
+        }
+        if plan.backend == Backend::Gpu && plan.gpu.target_bits == Some(TargetBits::Sixteen) {
+            let layers = self.work(plan).map_or(0.0, |work| work.fragments.estimate)
+                / (f64::from(plan.view.width) * f64::from(plan.view.height));
+            if layers > DEEP {
+                warnings.push(format!(
+                    "{layers:.0} layers of cells lie in a pixel on average, and 16 bits round after each of them; use quality.target_bits = 32, or \
+                     quality.gpu_path = \"compute\""
+                ));
+            }
+        }
+        warnings
+    }
+
+    /// Tetrahedra for which [`Sharpness::is_beyond_32_bits`].
+    fn cells_beyond_32_bits(&self, plan: &Plan) -> usize {
+        let sharpness = Sharpness::new(&plan.transfer, plan.model);
+        let mesh = self.mesh();
+        let scale = mesh.frame().scale;
+        // Local coordinates are at most 1 long.
+        if !sharpness.may_be_beyond_32_bits(2.0 * scale) {
+            return 0;
+        }
+        let is_beyond = |corners: &&[tetrascope_mesh::VertexId; 4]| {
+            let scalars = corners.map(|v| self.on_mesh.scalars[v.index()]);
+            let points = corners.map(|v| mesh.positions()[v.index()]);
+            let [low, high] =
+                scalars.iter().fold([f64::INFINITY, f64::NEG_INFINITY], |[l, h], &s| [l.min(s), h.max(s)]);
+            let pairs = (0..4).flat_map(|i| (0..i).map(move |j| (i, j)));
+            let longest = pairs.map(|(i, j)| points[i].distance(points[j])).fold(0.0, f64::max);
+            sharpness.is_beyond_32_bits(low, high, longest * scale)
+        };
+        mesh.tetrahedra().iter().filter(is_beyond).count()
+    }
+}
