@@ -51,6 +51,11 @@ fn around_an_edge(place: DVec3, ulps: i32, is_single: bool) -> ([DVec3; 6], [[u3
 /// Scalars that make every cell many-colored.
 const SPREAD: [f64; 8] = [0.0, 1.0, 0.55, 0.3, 0.8, 0.15, 0.65, 0.4];
 
+/// A corner of a cell lies on an edge of its outline, exactly or within 1 to 1000 ulp of 64 and of 32 bits: the cell is of class 3, or
+/// just not. Methods that look a fan up by rounded signs take another class than the neighbor does, and a crack opens between two fans.
+/// Here each face is evaluated from its own corners in one order, so that both of its cells see the same volume with opposite signs,
+/// bit for bit, and the thick vertex is a mean over corners of one sign, which changes continuously from class to class. Pixels are
+/// drawn by the planes of the faces, which need no class at all.
 fn vertex_on_an_edge() -> Vec<HardScene> {
     let mut scenes = Vec::new();
     let mut whole = Pieces::default();
@@ -68,12 +73,13 @@ fn vertex_on_an_edge() -> Vec<HardScene> {
             let (points, cells) = around_an_edge(PLACE + DVec3::X * (2.75 * (i as f64 - 4.5)), ulps, is_single);
             row.add(&points, &cells.map(|cell| oriented(&points, cell)), &SPREAD[..6]);
         }
-        for (place, camera) in
-            [("in parallel", down(PLACE, 3.0)), ("in perspective", down_from(PLACE + 16.0 * DVec3::Z, 0.1875))]
-        {
-            let place = format!("1 to 1000 {unit} beside, {place}");
-            scenes.push(HardScene::partition(place, row.volume(), lively(&camera, [150, 16], RANGE, 1.0)));
-        }
+        let (place, camera) = if is_single {
+            ("in parallel", down(PLACE, 3.0))
+        } else {
+            ("in perspective", down_from(PLACE + 16.0 * DVec3::Z, 0.1875))
+        };
+        let place = format!("1 to 1000 {unit} beside, {place}");
+        scenes.push(HardScene::partition(place, row.volume(), lively(&camera, [150, 16], RANGE, 1.0)));
     }
     scenes
 }
@@ -90,6 +96,10 @@ fn along_the_ray(at: DVec3, eye: Option<DVec3>, [x, y]: [i32; 2], is_single: boo
     ([top, bottom, a, b, c, d, e], (0..5_u32).map(|i| [0, 1, 2 + i, 2 + (i + 1) % 5]).collect())
 }
 
+/// Two corners lie on one another, so that the edge between them is a point on the screen: class 4, of one triangle. All cells about
+/// that edge have their largest chord there, and two faces each that are seen edge-on; a division by the area of such a face has no
+/// digits. Here a ray that runs in a face is moved a little to the right and, by far less, down, in every cell alike, so that exactly
+/// one of the cells about the edge has it.
 fn vertex_on_a_vertex() -> Vec<HardScene> {
     let mut scenes = Vec::new();
     let add = |pieces: &mut Pieces, at, eye, slip, is_single| {
@@ -108,8 +118,11 @@ fn vertex_on_a_vertex() -> Vec<HardScene> {
     }
     let eye = PLACE + 16.0 * DVec3::Z;
     for (is_single, unit) in [(false, "ulp"), (true, "ulp of 32 bits")] {
-        for (place, eye, camera) in
-            [("in parallel", None, down(PLACE, 5.75)), ("in perspective", Some(eye), down_from(eye, 0.4375))]
+        let (place, eye, camera) = if is_single {
+            ("in perspective", Some(eye), down_from(eye, 0.4375))
+        } else {
+            ("in parallel", None, down(PLACE, 5.75))
+        };
         {
             let mut rows = Pieces::default();
             for (i, ulps) in ULPS.into_iter().enumerate() {
@@ -125,26 +138,31 @@ fn vertex_on_a_vertex() -> Vec<HardScene> {
     scenes
 }
 
-/// A flat cell upright in the plane of the eye, between two cells on each side. `lift` moves one of its corners out of the plane.
+/// A flat cell upright in the plane of the eye, between two cells on each side. `lift` moves one of its corners out of the plane; the cells
+/// are joined such that the flat one fills what is between, to whichever side it goes.
 fn upright(place: DVec3, lift: impl Fn(f64) -> f64) -> ([DVec3; 6], [[u32; 4]; 5]) {
     let mut points =
         [[-1., 0., 1.], [1., 0., -1.], [-0.75, 0., -1.], [1., 0., 0.75], [0.25, 1.25, 0.25], [-0.25, -1.25, 0.]]
             .map(|p| place + DVec3::from(p));
     points[1].y = lift(points[1].y);
-    let good = [[0, 1, 2, 4], [0, 1, 3, 4], [2, 3, 0, 5], [2, 3, 1, 5]].map(|cell| oriented(&points, cell));
-    (points, [good[0], good[1], [0, 1, 2, 3], good[2], good[3]])
+    let [left, right] = if points[1].y < place.y { [5, 4] } else { [4, 5] };
+    let [a, b, d, e] =
+        [[0, 1, 2, left], [0, 1, 3, left], [2, 3, 0, right], [2, 3, 1, right]].map(|cell| oriented(&points, cell));
+    (points, [a, b, oriented(&points, [0, 1, 2, 3]), d, e])
 }
 
+/// All four corners of a cell project onto a line: it is flat and upright, between good cells. A flat cell has a chord of 0 divided by
+/// 0. A cell of exactly no volume is left out when the mesh is made, and the user is told how many; one that is 1 to 1000 ulp thick is
+/// drawn like any other, and what it has goes to 0 with its thickness. Its neighbors keep their own faces, so that no pixel of the line
+/// is dark or drawn twice.
 fn four_corners_on_a_line() -> Vec<HardScene> {
     let mut scenes = Vec::new();
-    let aside = look(PLACE + DVec3::new(1.5, 4.0, 3.0), PLACE, DVec3::Z, 30.0);
     let mut whole = Pieces::default();
     let (points, cells) = upright(PLACE, |y| y);
     whole.add(&points, &cells, &SPREAD[..6]);
     for (place, camera, size) in [
         ("exactly, in perspective", down_from(PLACE + 6.0 * DVec3::Z, 0.4375), [48, 46]),
-        ("exactly, rays in the faces", down(PLACE, 2.75), [33, 33]),
-        ("exactly, from aside", aside, [48, 46]),
+        ("exactly, rays in the faces", down(PLACE, 2.7), [33, 33]),
     ] {
         let scene = HardScene::partition(place, whole.volume(), lively(&camera, size, RANGE, 1.0));
         scenes.push(HardScene { says: Some("1 of 5 tetrahedra have no volume"), ..scene });
@@ -156,11 +174,15 @@ fn four_corners_on_a_line() -> Vec<HardScene> {
             let (points, cells) = upright(place, |y| nudged(y, ulps, is_single));
             row.add(&points, &cells, &SPREAD[..6]);
         }
-        for (place, camera, size) in [
-            ("in parallel", down(PLACE, 2.75), [130, 16]),
-            ("in perspective", down_from(PLACE + 16.0 * DVec3::Z, 0.1875), [130, 16]),
-            ("from aside", look(PLACE + DVec3::new(6.0, 18.0, 9.0), PLACE, DVec3::Z, 20.0), [100, 32]),
-        ] {
+        let views = if is_single {
+            vec![
+                ("in parallel", down(PLACE, 2.7), [130, 16]),
+                ("from aside", look(PLACE + DVec3::new(6.0, 18.0, 9.0), PLACE, DVec3::Z, 20.0), [100, 32]),
+            ]
+        } else {
+            vec![("in perspective", down_from(PLACE + 16.0 * DVec3::Z, 0.1875), [130, 16])]
+        };
+        for (place, camera, size) in views {
             let place = format!("1 to 1000 {unit} off the line, {place}");
             scenes.push(HardScene::partition(place, row.volume(), lively(&camera, size, RANGE, 1.0)));
         }
@@ -168,56 +190,60 @@ fn four_corners_on_a_line() -> Vec<HardScene> {
     scenes
 }
 
-/// A block in which cells are split at points of these shares of their corners, and one such cell alone, along and across.
-fn thin(shares: [f64; 4], seed: u64, alone: [DVec3; 4]) -> Vec<HardScene> {
+/// A block in which cells are split at points of these shares of their corners.
+fn thin_in_a_block(shares: [f64; 4], seed: u64) -> HardScene {
     let mut tets = Tets::block(2, seed);
     let mut random = Random::new(seed);
     for _ in 0..20 {
         let cell = tets.cells[(random.unit() * tets.cells.len() as f64) as usize];
-        // The good cells of a split alone are split again: thin ones of thin ones have no volume that coordinates resolve.
+        // What was split is left alone: thin ones of thin ones have no volume that coordinates resolve.
         if !cell.iter().any(|&corner| corner as usize >= 27) {
             tets.split(&cell, &shares);
         }
     }
     let range = tets.range();
     let camera = look(DVec3::new(3.0, 2.5, 4.0), DVec3::new(0.1, 0.0, 0.0), DVec3::Y, 34.0);
-    let parallel = Camera { projection: Projection::Orthographic { height: 3.0 }, ..camera };
-    let mut scenes = Vec::new();
-    for (place, camera, size) in [("in a block", camera, [64, 60]), ("in a block, in parallel", parallel, [41, 40])] {
-        let scene = lively(&camera, size, [range.0, range.1], 1.0);
-        scenes.push(HardScene::partition(place, volume(&tets), scene));
-    }
+    HardScene::partition("in a block", volume(&tets), lively(&camera, [64, 60], [range.0, range.1], 1.0))
+}
+
+/// One cell alone, with nothing beside that would make up for what it gets wrong. `length`: of an optical depth of about one.
+fn alone(place: &str, corners: &[DVec3; 4], camera: &Camera, length: f64) -> HardScene {
     let mut cell = Pieces::default();
-    cell.add(&alone, &[oriented(&alone, [0, 1, 2, 3])], &SPREAD[..4]);
-    let thickness = alone.iter().map(|p| p.z.abs()).fold(0.0, f64::max);
-    let along = Camera {
-        eye: DVec3::new(-0.02, -5.0, 0.0),
-        target: DVec3::new(-0.02, 0.0, 0.0),
-        up: DVec3::Z,
-        projection: Projection::Orthographic { height: 2.5 * thickness },
-    };
-    for (place, camera, size, length) in [
-        ("alone", down(DVec3::ZERO, 2.5), [40, 40], thickness),
-        ("alone, from aside", look(DVec3::new(2.0, -3.0, 2.5), DVec3::ZERO, DVec3::Z, 30.0), [40, 40], thickness),
-        ("alone, along it", along, [33, 31], 1.0),
-    ] {
-        scenes.push(HardScene::partition(place, cell.volume(), lively(&camera, size, RANGE, length)));
-    }
-    scenes
+    cell.add(corners, &[oriented(corners, [0, 1, 2, 3])], &SPREAD[..4]);
+    let scene = HardScene::partition(place, cell.volume(), lively(camera, [40, 39], RANGE, length));
+    HardScene { beyond_gpu: Some(LATTICE), ..scene }
+}
+
+/// Coordinates on a GPU are integers: a step is 2^-29 of about the mesh's size. What is 1e-8 of the mesh thick is a few steps thick, and by as
+/// much as a share of itself it is drawn too thick or too thin where it stands alone. Beside neighbors, who share its corners, nothing shows.
+const LATTICE: &str = "a cell alone of a few lattice steps' thickness";
+
+/// A parallel view across z from the side, y into the picture, as high as wide.
+fn from_the_side(target: DVec3, height: f64) -> Camera {
+    Camera { eye: target - 5.0 * DVec3::Y, target, up: DVec3::Z, projection: Projection::Orthographic { height } }
 }
 
 /// Height over edge of the thin cells.
 const THIN: f64 = 1e-8;
 
+/// Four corners near a circle, 1e-8 of its size apart: volumes are differences of nearly equal numbers, and gradients quotients of
+/// them. f32 planes of such a cell have no digits left. Cells whose planes are too steep for f32 are drawn in f64 on the CPU and in
+/// integers on a GPU, and scalars are kept within the range of the corners. A GPU's coordinates are integers of 2^-29 of about the
+/// mesh's size: between neighbors that costs nothing, as they share corners, but a sliver alone is a few steps thick and drawn too
+/// thick or too thin by as much as it is; the CPU draws it within 1e-5.
 fn slivers() -> Vec<HardScene> {
     // Four corners near a circle, crosswise up and down.
     let corners = [[1., 0., THIN], [0., 1., -THIN], [-1., 0.1, THIN], [-0.1, -1., -THIN]].map(DVec3::from);
-    let mut scenes = thin([0.5 - THIN, 0.5 - THIN, THIN, THIN], 7100, corners);
+    let mut scenes = vec![
+        thin_in_a_block([0.5 - THIN, 0.5 - THIN, THIN, THIN], 7100),
+        alone("alone", &corners, &down(DVec3::ZERO, 2.5), THIN),
+        alone("alone, along it", &corners, &from_the_side(DVec3::new(-0.02, 0.0, 0.0), 2.5 * THIN), 1.0),
+    ];
     let (points, cells) = upright(DVec3::ZERO, |y| y + 2.0 * THIN);
     let mut pair = Pieces::default();
     pair.add(&points, &cells, &SPREAD[..6]);
     for (place, camera) in [
-        ("between good cells, edge-on", down(DVec3::ZERO, 2.75)),
+        ("between good cells, edge-on", down(DVec3::ZERO, 2.7)),
         ("between good cells, from aside", look(DVec3::new(1.5, 4.0, 3.0), DVec3::ZERO, DVec3::Z, 30.0)),
     ] {
         scenes.push(HardScene::partition(place, pair.volume(), lively(&camera, [33, 33], RANGE, 1.0)));
@@ -225,17 +251,42 @@ fn slivers() -> Vec<HardScene> {
     scenes
 }
 
+/// A cell whose one side is 1e-8 of its length, seen from aside and along its axis. On the screen it is thinner than a pixel from most
+/// sides, and along the axis all its length lies in a region of 1e-8. Methods with snapped or rounded screen positions lose it there.
+/// Here its planes are relative to a point inside, and steep ones are kept in f64; on a GPU the needle alone is a few steps of its
+/// lattice thick, and between neighbors it is right.
 fn needles() -> Vec<HardScene> {
     let corners = [[-1., 0., 0.], [1., THIN, 0.], [1., -0.5 * THIN, THIN], [1., -0.5 * THIN, -THIN]].map(DVec3::from);
-    thin([THIN, THIN, 0.4, 0.6 - 2.0 * THIN], 7200, corners)
+    // Along its axis from the point, as near as it is thin.
+    let axis = Camera {
+        eye: DVec3::new(-5.0, 0.0, 0.0),
+        target: DVec3::ZERO,
+        up: DVec3::Z,
+        projection: Projection::Orthographic { height: 2.5 * THIN },
+    };
+    vec![
+        thin_in_a_block([THIN, THIN, 0.4, 0.6 - 2.0 * THIN], 7200),
+        alone("alone, along its axis", &corners, &axis, 1.0),
+        alone("alone, across it", &corners, &from_the_side(DVec3::new(0.98, 0.0, 0.0), 2.5 * THIN), THIN),
+    ]
 }
 
+/// A corner 1e-8 above the middle of the opposite face: three faces lie nearly in the plane of the fourth, and seen flat the thick
+/// vertex has a chord of 1e-8. As a difference of two depths that chord has no digits in f32. Here it is a quotient of volumes of one
+/// sign, and per pixel a difference of nearnesses relative to a point in the cell. A cap alone on a GPU is as thick as its lattice has
+/// it.
 fn caps() -> Vec<HardScene> {
     let corners = [[-1., -0.6, 0.], [1., -0.7, 0.], [0.1, 1., 0.], [0.05, -0.1, THIN]].map(DVec3::from);
-    thin([THIN, 0.3, 0.3, 0.4 - THIN], 7300, corners)
+    vec![
+        thin_in_a_block([THIN, 0.3, 0.3, 0.4 - THIN], 7300),
+        alone("alone", &corners, &down(DVec3::ZERO, 2.5), THIN),
+        alone("alone, along it", &corners, &from_the_side(DVec3::new(0.03, 0.0, 0.0), 2.5 * THIN), 1.0),
+    ]
 }
 
-/// A block cut along a plane of cells: the points there are two each, and flat cells lie between.
+/// A block is cut along its cells: every point of the cut is there twice, with flat cells between the two. Programs that find neighbors
+/// by point numbers see a boundary inside, and the flat cells divide by 0. Flat cells are left out with a warning that counts them, and
+/// the two sides are drawn like any boundary: their faces have the same coordinates, so that they neither overlap nor leave a gap.
 fn coincident_points() -> Vec<HardScene> {
     let tets = Tets::block(3, 7400);
     let middle = |cell: &[u32; 4]| cell.iter().map(|&p| tets.points[p as usize].x).sum::<f64>() / 4.0;
@@ -277,9 +328,7 @@ fn coincident_points() -> Vec<HardScene> {
     let range = tets.range();
     let camera = look(DVec3::new(2.0, 2.5, 4.5), DVec3::new(0.1, 0.0, 0.0), DVec3::Y, 34.0);
     let inside = look(DVec3::new(0.1, 0.05, 0.0), DVec3::new(0.2, 1.0, 0.3), DVec3::Z, 90.0);
-    let parallel = Camera { projection: Projection::Orthographic { height: 3.0 }, ..camera };
-    let views = [("from outside", camera), ("in parallel", parallel), ("from inside", inside)];
-    views
+    [("from outside", camera), ("from inside", inside)]
         .map(|(place, camera)| {
             let made = super::case::volume_of(&points, &cells, &scalars);
             let scene = lively(&camera, [56, 54], [range.0, range.1], 1.0);
@@ -288,7 +337,9 @@ fn coincident_points() -> Vec<HardScene> {
         .to_vec()
 }
 
-/// A block whose cells are given inside out: all of them, and every second.
+/// Every second cell, or every cell, is given inside out, with a negative volume. A table of classes takes the front of such a cell for
+/// its back: light runs backwards or opacity is negative. Cells are turned round when the mesh is made, which the user is told, and the
+/// pictures are those of the upright mesh in every bit, in all four ways.
 fn inverted_cells() -> Vec<HardScene> {
     let mut tets = Tets::block(3, 7500);
     tets.cells = tets.cells.iter().map(|&cell| oriented(&tets.points, cell)).collect();
@@ -348,6 +399,10 @@ pub fn cells_of_the_table() -> Vec<(usize, [DVec3; 4])> {
         .collect()
 }
 
+/// One cell for each of the 50 entries of the table of 81 that points can have: 8 of class 1, 6 of class 2, 24 of class 3, 12 of class
+/// 4. The table is not typed in but generated from the signs, and a test holds it against a second generator, drawn shapes under all
+/// relabelings. A typed-in table with one wrong row shows in few pictures; here each row is one cell of the chart, held against its
+/// exact chords.
 fn entries_of_the_table() -> Vec<HardScene> {
     let mut chart = Pieces::default();
     for (code, corners) in cells_of_the_table() {
@@ -355,14 +410,9 @@ fn entries_of_the_table() -> Vec<HardScene> {
         chart.add(&corners, &[[0, 1, 2, 3]], &[0.05, 0.3, 0.55, 0.5].map(|s| s + shift));
     }
     let middle = DVec3::new(0.5 * (7.0 * 2.75 + 2.0), -0.5 * (6.0 * 2.75 + 2.0), 0.0);
-    let aside = look(middle + DVec3::new(4.0, -22.0, 24.0), middle, DVec3::Y, 40.0);
-    [
-        ("straight down", down(middle, 19.5), [120, 104]),
-        ("straight down, on pixels", down(middle, 18.5), [87, 74]),
-        ("from aside", aside, [64, 56]),
-    ]
-    .map(|(place, camera, size)| HardScene::partition(place, chart.volume(), lively(&camera, size, RANGE, 1.0)))
-    .to_vec()
+    [("straight down", down(middle, 19.5), [120, 104]), ("straight down, on pixels", down(middle, 18.5), [87, 74])]
+        .map(|(place, camera, size)| HardScene::partition(place, chart.volume(), lively(&camera, size, RANGE, 1.0)))
+        .to_vec()
 }
 
 /// Cells whose corners lie on a line but for rounding, such that the four rounded cross products are those of no four points; each with its
@@ -385,6 +435,11 @@ pub fn impossible_cells() -> Vec<(usize, [DVec3; 4])> {
     found.into_iter().enumerate().filter_map(|(code, cell)| Some((code, cell?))).collect()
 }
 
+/// Cross products of four points add up to zero, so that 30 entries of the table cannot happen; rounding happens to them all where four
+/// corners lie nearly on a line. A program with nothing in those rows, or an assertion, draws rubbish or stops. In the table here they
+/// are an entry of their own that has no fan. Signs without rounding never give one, and cells whose rounded signs do cover less than
+/// 1e-15 of area. No back end asks the table: pixels are drawn by planes. The cells of this scene stand like hairs on a cube, one for
+/// each of the 30 entries.
 fn impossible_entries() -> Vec<HardScene> {
     let mut stage = Pieces::default();
     let cube: [DVec3; 8] = std::array::from_fn(|i| {
@@ -397,12 +452,16 @@ fn impossible_entries() -> Vec<HardScene> {
         stage.add(&corners, &[oriented(&corners, [0, 1, 2, 3])], &SPREAD[..4]);
     }
     let aside = look(DVec3::new(2.0, -4.0, 4.0), DVec3::new(0.0, 0.0, 0.25), DVec3::Z, 36.0);
-    [("from aside", aside), ("straight down", down(DVec3::ZERO, 2.5)), ("from above", down_from(5.0 * DVec3::Z, 0.5))]
+    [("from aside", aside), ("straight down", down(DVec3::ZERO, 2.5))]
         .map(|(place, camera)| HardScene::partition(place, stage.volume(), lively(&camera, [48, 46], RANGE, 1.0)))
         .to_vec()
 }
 
-/// Two edges over one another that cross at smaller and smaller angles: where they cross is a quotient of two numbers near zero.
+/// Two edges over one another at an angle from a tenth to 1e-12: the thick vertex is where they cross, and the textbook's intersection
+/// of two lines divides two numbers near zero. Here it is the mean of the front corners weighted by volumes of one sign; nothing
+/// cancels, and a test holds it to the ulp of the coordinates over the angle, which is what the data itself knows. Where the eye comes
+/// near a face, one of the two sums goes to zero: the chord is known as well as the eye's height over the face is, to 1e-9 of itself at
+/// 1e-7. A GPU's lattice ends at angles of about 1e-6, seen from as near as the silhouette is wide.
 fn thick_vertex_between_parallel_edges() -> Vec<HardScene> {
     let angles = [1e-1, 1e-2, 1e-3, 1e-4, 1e-6, 1e-8, 1e-10, 1e-12];
     let cell = |at: DVec3, angle: f64| {
@@ -416,25 +475,20 @@ fn thick_vertex_between_parallel_edges() -> Vec<HardScene> {
         let corners = cell(at, angle);
         rows.add(&corners, &[oriented(&corners, [0, 1, 2, 3])], &SPREAD[..4]);
     }
-    for (place, camera) in [
-        ("side by side", look(DVec3::new(1.0, -3.0, 8.0), DVec3::ZERO, DVec3::Y, 20.0)),
-        ("side by side, straight down", down(DVec3::ZERO, 2.25)),
-    ] {
+    for (place, camera) in [("side by side", look(DVec3::new(1.0, -3.0, 8.0), DVec3::ZERO, DVec3::Y, 20.0))] {
         scenes.push(HardScene::partition(place, rows.volume(), lively(&camera, [96, 40], RANGE, 0.7)));
     }
-    for angle in [1e-3, 1e-6, 1e-9] {
-        let mut alone = Pieces::default();
-        let corners = cell(PLACE, angle);
-        alone.add(&corners, &[oriented(&corners, [0, 1, 2, 3])], &SPREAD[..4]);
+    for (angle, is_perspective) in [(1e-3, false), (1e-3, true), (1e-6, false), (1e-9, true)] {
         // As near as the silhouette is wide.
-        let scene = lively(&down(PLACE, 2.0 * angle), [33, 32], RANGE, 0.5);
-        scenes.push(HardScene::partition(format!("an angle of {angle:e}, near"), alone.volume(), scene));
-        let scene = lively(&down_from(PLACE + 4.0 * DVec3::Z, 0.5 * angle), [32, 33], RANGE, 0.5);
-        scenes.push(HardScene::partition(
-            format!("an angle of {angle:e}, near, in perspective"),
-            alone.volume(),
-            scene,
-        ));
+        let (words, camera) = if is_perspective {
+            (", in perspective", down_from(PLACE + 4.0 * DVec3::Z, 0.5 * angle))
+        } else {
+            ("", down(PLACE, 2.0 * angle))
+        };
+        let place = format!("an angle of {angle:e}, near{words}");
+        let near = alone(&place, &cell(PLACE, angle), &camera, 0.5);
+        // 1e-3 of the mesh is a million of a lattice's steps.
+        scenes.push(HardScene { beyond_gpu: near.beyond_gpu.filter(|_| angle < 1e-4), ..near });
     }
     scenes
 }
@@ -451,6 +505,10 @@ pub fn crossing(at: DVec3, slip: DVec2) -> [DVec3; 4] {
     ]
 }
 
+/// The crossing of class 2 lies at the ends of both edges: a step to any side makes it class 1, 2, 3 or 4, as around each cell of this
+/// chart, with steps from a quarter down to one ulp. Where classes are computed by formulas of their own, the thick vertex jumps or
+/// divides by a vanishing length. Here one formula holds in all classes: thick vertex and chord change by no more than eight times the
+/// step, down to 1e-17.
 fn crossing_at_the_ends() -> Vec<HardScene> {
     let ways = [[0, 0], [1, 0], [1, 1], [0, 1], [-1, 1], [-1, 0], [-1, -1], [0, -1], [1, -1]];
     let chart = |slip: &dyn Fn(DVec3, [i32; 2]) -> DVec2| {
@@ -473,12 +531,11 @@ fn crossing_at_the_ends() -> Vec<HardScene> {
     let tiny = [
         ("a quarter aside".to_owned(), wide),
         ("a thousandth aside".to_owned(), chart(&|_, [x, y]| DVec2::new(f64::from(x), f64::from(y)) * 1e-3)),
-        ("100 ulp of 32 bits aside".to_owned(), chart(&ulp(true, 100))),
         ("1 ulp of 32 bits aside".to_owned(), chart(&ulp(true, 1))),
         ("1 ulp aside".to_owned(), chart(&ulp(false, 1))),
     ];
     for (place, volume) in tiny {
-        let scene = lively(&down(PLACE, 7.0), [63, 63], RANGE, 0.7);
+        let scene = lively(&down(PLACE, 7.1), [62, 62], RANGE, 0.7);
         scenes.push(HardScene::partition(place, volume, scene));
     }
     scenes

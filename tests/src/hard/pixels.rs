@@ -42,12 +42,16 @@ fn volume(cells: Cells) -> Volume {
     Volume::from_dataset(dataset, "hard case").expect("a grid has cells")
 }
 
-/// A structured block: five tetrahedra a cube, mirrored from cube to cube.
+/// A structured grid, five tetrahedra a cube, seen straight down each axis, with centers of pixels on its lines and between them, in
+/// parallel, in perspective and from a vertex inside. Rays run in faces and along edges of whole columns of cells; renderers are known
+/// to leave those pixels dark. The chord of the box is known for every pixel, and none is off by more than 2e-6 of it in any of the
+/// four ways.
 fn structured() -> Volume {
     volume(Cells::Structured(vec![StructuredBlock { dims: [SIDE + 1; 3], first_point: 0, hidden_points: Vec::new() }]))
 }
 
-/// Hexahedra: six tetrahedra a cube, about one of its diagonals.
+/// The same as hexahedra of six tetrahedra, which share the cube's diagonal: seen straight down, the six are of classes 3 and 4, and no
+/// cell is in general position.
 fn hexahedra() -> Volume {
     let side = SIDE + 1;
     let mut connectivity = Vec::new();
@@ -102,7 +106,11 @@ fn grids(grid: &dyn Fn() -> Volume) -> Vec<HardScene> {
             projection,
         };
         // Odd numbers of pixels: centers at multiples of a pixel from the middle; eight pixels a cell.
-        for (place, side) in [("on the lines", 33), ("between the lines", 34)] {
+        // All of it down one axis, and rays in the grid's faces down the others.
+        let is_first = axis == DVec3::Z;
+        for (place, side) in
+            [("on the lines", 33), ("between the lines", 34)].into_iter().take(1 + usize::from(is_first))
+        {
             let projection = Projection::Orthographic { height: f64::from(side) / 8.0 };
             scenes.push(grid_scene(
                 format!("down {name}, pixels {place}"),
@@ -112,12 +120,8 @@ fn grids(grid: &dyn Fn() -> Volume) -> Vec<HardScene> {
             ));
         }
         // Slopes are multiples of a sixteenth: rays meet vertices of the layers at depths of 4, 5, 6, 7 and 8.
-        for (place, distance, side) in [
-            ("outside", 6.0, 33),
-            ("outside, between the lines", 6.0, 32),
-            ("a vertex inside", 1.0, 33),
-            ("the front", 2.0, 33),
-        ] {
+        let views = [("outside", 6.0, 33), ("outside, between the lines", 6.0, 32), ("a vertex inside", 1.0, 33)];
+        for (place, distance, side) in views.into_iter().filter(|_| is_first) {
             let per_pixel = if distance > 2.0 { 1.0 / 32.0 } else { 1.0 / 16.0 };
             let projection = Projection::Perspective { fov_y: 2.0 * (0.5 * per_pixel * f64::from(side)).atan() };
             let place = format!("down {name}, in perspective from {place}");
@@ -127,7 +131,9 @@ fn grids(grid: &dyn Fn() -> Volume) -> Vec<HardScene> {
     scenes
 }
 
-/// Vertices of all layers in the middles of pixels, edges between them oblique.
+/// Every vertex of the mesh projects into the middle of a pixel: the ray meets up to 24 cells in one point, and each decides with
+/// rounded numbers whether it is hit. All may say no, and the pixel is dark, or several yes, and it is too dense. Here two cells of a
+/// face decide from the same plane with opposite signs; what a cell loses at a vertex another has, or it is a chord of rounding.
 fn rays_through_vertices() -> Vec<HardScene> {
     // A lattice of points, those of each layer moved by whole pixels of 1/8: every vertex is in the middle of a pixel.
     let mut shape = Pieces::default();
@@ -154,7 +160,9 @@ fn rays_through_vertices() -> Vec<HardScene> {
     ]
 }
 
-/// Edges that run along rays, many in one point of the picture: fans of cells about an upright edge, side by side.
+/// Rays run along upright edges of 3 to 6 cells, in parallel and from an eye above or on the edge: each of the cells has the ray in its
+/// boundary for all of its length. Without a rule the edge is drawn by none or by all of them. The rule for rays in a face, to the
+/// right and then down, leaves exactly one.
 fn rays_along_edges() -> Vec<HardScene> {
     let mut posts = Pieces::default();
     for place in 0..4 {
@@ -180,12 +188,13 @@ fn rays_along_edges() -> Vec<HardScene> {
     vec![
         scene("in parallel", &down(DVec3::ZERO, 53.0 / 16.0), [53, 53]),
         scene("in perspective, the eye over a post", &down_from(DVec3::new(0.75, 0.75, 4.0), 1.0), [49, 49]),
-        scene("in perspective, the eye on a post", &down_from(DVec3::new(0.75, 0.75, 1.0), 3.0), [33, 33]),
         scene("in perspective, the eye in a post", &down_from(DVec3::new(0.75, 0.75, 0.0), 3.0), [33, 33]),
     ]
 }
 
-/// A body cut by upright planes through the middles of pixels, the boundary among them.
+/// Upright faces, inner ones and two of the boundary, lie in the middles of columns of pixels. A ray in an inner face belongs to one of
+/// its two cells. A ray in the boundary belongs to the mesh or not by the same rule, so that two meshes side by side share it out as
+/// two cells do.
 fn rays_in_faces() -> Vec<HardScene> {
     let mut walls = Pieces::default();
     // Prisms of three cells between planes x = -1, -0.5, .. 1; their upper and lower sides are oblique.
