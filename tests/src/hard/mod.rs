@@ -15,7 +15,7 @@ mod pixels;
 mod views;
 
 pub use case::{Group, HardCase, HardScene, Light, Truth, scene_of, volume_of};
-pub use classification::{cells_of_the_table, crossing, impossible_cells};
+pub use classification::{cells_of_the_table, impossible_cells};
 pub use eye::towards_parallel_scenes;
 pub use judge::{CHORD_LIMIT, CHORD_LIMIT_GPU, CRACK_LIMIT, CRACK_LIMIT_GPU, Finding, is_sound, judge};
 
