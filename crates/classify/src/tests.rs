@@ -1,6 +1,7 @@
 //! What the tests share: random cells, and rays clipped by a cell as an independent reference.
 
 mod cut_tests;
+mod hard_tests;
 mod projection_tests;
 mod sign_tests;
 mod table_tests;

@@ -1,9 +1,12 @@
 //! The hard cases of `docs/hard-cases.md`, case by case, drawn in every way.
 
+mod classification;
+mod eye;
 mod mesh;
 mod numbers;
 mod optics;
 mod order;
+mod pixels;
 
 use tetrascope_tests::hard::{HardCase, judge, named};
 use tetrascope_tests::ways::Way;

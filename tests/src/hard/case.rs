@@ -8,6 +8,8 @@ use tetrascope::mesh::{ArrayValues, CellKind, Cells, DataArray, Dataset, Unstruc
 use tetrascope::view::Ray;
 use tetrascope::{Camera, CameraSection, Projection, ProjectionName, SceneFile, Volume};
 
+use crate::ways::Way;
+
 /// A section of the document.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[expect(missing_docs, reason = "the names are the sections")]
@@ -47,6 +49,8 @@ pub struct HardScene {
     pub within: f64,
     /// The same for a GPU: its f32 has no f64 beside it.
     pub within_gpu: f64,
+    /// Why a GPU cannot hold this scene: its pictures must be sound, but its figures are told and not judged.
+    pub beyond_gpu: Option<&'static str>,
     /// Words that the user must be told, where a limit is reached.
     pub says: Option<&'static str>,
 }
@@ -85,7 +89,23 @@ impl HardScene {
 
     /// A scene with the usual limits: 1e-5 on the CPU, 2e-5 on a GPU.
     pub fn new(place: impl Into<String>, volume: Volume, scene: SceneFile, truth: Truth) -> Self {
-        Self { place: place.into(), volume: Arc::new(volume), scene, truth, within: 1e-5, within_gpu: 2e-5, says: None }
+        Self {
+            place: place.into(),
+            volume: Arc::new(volume),
+            scene,
+            truth,
+            within: 1e-5,
+            within_gpu: 2e-5,
+            beyond_gpu: None,
+            says: None,
+        }
+    }
+}
+
+impl HardScene {
+    /// Whether the figures of a way are held to limits.
+    pub(super) fn judges(&self, way: Way) -> bool {
+        !(way.needs_gpu() && self.beyond_gpu.is_some())
     }
 }
 

@@ -12,8 +12,11 @@ mod numbers;
 mod optics;
 mod order;
 mod pixels;
+mod views;
 
 pub use case::{Group, HardCase, HardScene, Light, Truth, scene_of, volume_of};
+pub use classification::{cells_of_the_table, impossible_cells};
+pub use eye::towards_parallel_scenes;
 pub use judge::{CHORD_LIMIT, CHORD_LIMIT_GPU, CRACK_LIMIT, CRACK_LIMIT_GPU, Finding, is_sound, judge};
 
 /// All cases, in the order of the document.
