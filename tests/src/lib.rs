@@ -11,5 +11,6 @@ pub mod pictures;
 pub mod scenes;
 pub mod shapes;
 pub mod shared;
+pub mod soak;
 pub mod surfaces;
 pub mod ways;

@@ -6,6 +6,7 @@ mod bench;
 mod ci;
 mod figures;
 mod golden;
+mod soak;
 mod tidy;
 
 use std::path::{Path, PathBuf};
@@ -31,6 +32,8 @@ enum Task {
     Accuracy(accuracy::Args),
     /// The pictures of docs/gallery.md
     Figures(figures::Args),
+    /// Random scenes in every way, compared with one another; what fails is reduced and written
+    Soak(soak::Args),
 }
 
 fn main() -> ExitCode {
@@ -41,6 +44,7 @@ fn main() -> ExitCode {
         Task::Bench(args) => bench::run(&args),
         Task::Accuracy(args) => accuracy::run(&args),
         Task::Figures(args) => figures::run(&args),
+        Task::Soak(args) => soak::run(&args),
     };
     match done {
         Ok(()) => ExitCode::SUCCESS,
