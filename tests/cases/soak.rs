@@ -13,7 +13,8 @@ fn soak_of_some_scenes_is_clean() {
     let (mut tally, mut failures) = (Tally::default(), Vec::new());
     for seed in SEEDS {
         let case = Case::of(seed);
-        let judged = judge(&case, &ways, &draw);
+        // On software a GPU's programs take longer to compile than all the rest.
+        let judged = judge(&case, if seed % 6 == 0 { &ways } else { &Way::CPU }, &draw);
         failures.extend(judged.failures.iter().map(|failure| format!("{}: {failure}", case.describe())));
         tally.add(&case, &judged);
     }

@@ -10,7 +10,7 @@ use tetrascope::{
 };
 
 use super::Case;
-use super::truth::{Reach, envelope};
+use super::truth::{Reach, envelope, ray_by_ray};
 use crate::gpu;
 use crate::hard::is_sound;
 use crate::ways::Way;
@@ -41,6 +41,14 @@ pub struct Failure {
     pub words: String,
     /// Column and row, where it is a matter of one.
     pub pixel: Option<[u32; 2]>,
+    /// How much it is: of a difference the difference, else 1.
+    pub size: f64,
+}
+
+impl Failure {
+    fn new(way: Way, fault: Fault, words: String) -> Self {
+        Self { way, fault, words, pixel: None, size: 1.0 }
+    }
 }
 
 /// How near a picture came to its limit.
@@ -105,7 +113,7 @@ pub fn judge(case: &Case, ways: &[Way], drawing: Drawing<'_>) -> Judged {
     let mut judged = Judged { agreement: "light", ..Judged::default() };
     match catching(|| judge_inner(case, ways, drawing, &mut judged)) {
         Ok(()) => {}
-        Err(words) => judged.failures.push(Failure { way: Way::Reference, fault: Fault::Panic, words, pixel: None }),
+        Err(words) => judged.failures.push(Failure::new(Way::Reference, Fault::Panic, words)),
     }
     judged
 }
@@ -128,7 +136,7 @@ fn judge_inner(case: &Case, ways: &[Way], drawing: Drawing<'_>, judged: &mut Jud
         Ok(Ok(scene)) => scene,
         Ok(Err(_)) => case.scene.clone(),
         Err(words) => {
-            judged.failures.push(Failure { way: Way::Cpu, fault: Fault::Panic, words, pixel: None });
+            judged.failures.push(Failure::new(Way::Cpu, Fault::Panic, words));
             return;
         }
     };
@@ -137,7 +145,7 @@ fn judge_inner(case: &Case, ways: &[Way], drawing: Drawing<'_>, judged: &mut Jud
         match catching(|| draw_once(way, &field, &scene, drawing, None)) {
             Ok(Ok((plan, rendered))) => drawn.push((way, plan, rendered)),
             Ok(Err(error)) => judged.refusals.push((way, error.to_string())),
-            Err(words) => judged.failures.push(Failure { way, fault: Fault::Panic, words, pixel: None }),
+            Err(words) => judged.failures.push(Failure::new(way, Fault::Panic, words)),
         }
     }
     judged.pictures += drawn.len();
@@ -154,22 +162,31 @@ fn judge_inner(case: &Case, ways: &[Way], drawing: Drawing<'_>, judged: &mut Jud
                         Ok(_) => format!("{threads} threads give other bits"),
                         Err(error) => format!("{threads} threads: {error}"),
                     };
-                    judged.failures.push(Failure { way: *way, fault: Fault::Threads, words, pixel: None });
+                    judged.failures.push(Failure::new(*way, Fault::Threads, words));
                 }
-                Err(words) => judged.failures.push(Failure { way: *way, fault: Fault::Panic, words, pixel: None }),
+                Err(words) => judged.failures.push(Failure::new(*way, Fault::Panic, words)),
             }
         }
     }
-    let Some((_, plan, reference)) = drawn.iter().find(|(way, ..)| *way == Way::Reference) else { return };
-    judged.is_blank = tetrascope::is_blank(&reference.image);
+    let Some((plan, reference)) = reference_of(&field, &drawn) else { return };
+    judged.is_blank = tetrascope::is_blank(&reference);
+    let compared = Compared { field: &field, scene: &scene, plan, range: case.scalar_range() };
     for (way, own, rendered) in drawn.iter().filter(|(way, ..)| *way != Way::Reference) {
         let (agreement, why) = agreement(&field, own, rendered);
         if agreement != Agreement::Light {
             judged.agreement = why;
         }
-        let compared = Compared { field: &field, scene: &scene, plan, range: case.scalar_range() };
-        compared.check(*way, &reference.image, &rendered.image, agreement, judged);
+        compared.check(*way, &reference, &rendered.image, agreement, judged);
     }
+}
+
+/// The plan and the picture that all others are held against.
+fn reference_of<'a>(field: &VolumeField<'_>, drawn: &'a [(Way, Plan, Rendered)]) -> Option<(&'a Plan, LinearImage)> {
+    if let Some((_, plan, rendered)) = drawn.iter().find(|(way, ..)| *way == Way::Reference) {
+        return Some((plan, rendered.image.clone()));
+    }
+    let (_, plan, _) = drawn.iter().find(|(_, plan, _)| plan.integration.needs_fan())?;
+    Some((plan, ray_by_ray(field, plan)?))
 }
 
 /// What a closure gives, or what it said when it panicked.
@@ -211,21 +228,26 @@ fn check_refusals(ways: &[Way], drawn: &[(Way, Plan, Rendered)], judged: &mut Ju
     let said = |way: Way| judged.refusals.iter().find(|(w, _)| *w == way).map(|(_, words)| words.clone());
     let mut failures = Vec::new();
     if let (Some(words), true) = (said(Way::Cpu), drawn.iter().any(|(way, ..)| *way == Way::Reference)) {
-        failures.push(Failure { way: Way::Cpu, fault: Fault::Refused, words, pixel: None });
+        failures.push(Failure::new(Way::Cpu, Fault::Refused, words));
     }
-    if let (Some(words), true) = (said(Way::Reference), drawn.iter().any(|(way, ..)| *way == Way::Cpu)) {
-        failures.push(Failure { way: Way::Reference, fault: Fault::Refused, words, pixel: None });
+    if let (Some(words), true) = (said(Way::Reference), drawn.iter().any(|(way, ..)| *way == Way::Cpu))
+        && !words.contains(REFERENCE_REASON)
+    {
+        failures.push(Failure::new(Way::Reference, Fault::Refused, words));
     }
     for &way in ways.iter().filter(|way| way.needs_gpu()) {
         if let Some(words) = said(way)
             && said(Way::Reference).is_none()
             && !GPU_REASONS.iter().any(|reason| words.contains(reason))
         {
-            failures.push(Failure { way, fault: Fault::Refused, words, pixel: None });
+            failures.push(Failure::new(way, Fault::Refused, words));
         }
     }
     judged.failures.append(&mut failures);
 }
+
+/// What the reference cannot: its rays draw it one by one.
+const REFERENCE_REASON: &str = "has no fan of triangles";
 
 /// What a way on a GPU cannot and the CPU can.
 const GPU_REASONS: &[&str] = &[
@@ -246,7 +268,7 @@ fn check_soundness(way: Way, image: &LinearImage, judged: &mut Judged) {
             image.pixels()[first]
         );
         let pixel = Some(place(image, first));
-        judged.failures.push(Failure { way, fault: Fault::Unsound, words, pixel });
+        judged.failures.push(Failure { pixel, ..Failure::new(way, Fault::Unsound, words) });
     }
 }
 
@@ -348,14 +370,16 @@ impl Compared<'_> {
             if worst.0 > limit {
                 let pixel = worst.1;
                 let words = format!(
-                    "{:.2e} from all that the pixel may be, where {limit:.1e} is allowed: {:?}, the reference has {:?}; {} pixels are beyond",
+                    "{:.2e} from all that the pixel may be, where {limit:.1e} is allowed, by {}: {:?}, the reference has {:?}; {} pixels are beyond",
                     worst.0,
+                    self.plan.integration,
                     image.pixels()[pixel],
                     reference.pixels()[pixel],
                     beyond.len()
                 );
                 margin.difference = worst.0;
-                judged.failures.push(Failure { way, fault: Fault::Differs, words, pixel: Some(place(image, pixel)) });
+                let pixel = Some(place(image, pixel));
+                judged.failures.push(Failure { pixel, size: worst.0, ..Failure::new(way, Fault::Differs, words) });
             }
         }
         judged.margins.push(margin);

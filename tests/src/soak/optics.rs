@@ -12,10 +12,10 @@ pub(super) fn optics(random: &mut Random, tets: &Tets, bounds: Bounds, scene: &m
     scene.optics.model = OpticalModel::ALL[[0, 0, 0, 0, 1, 1, 2, 3][pick(random, 8)]];
     let (kind, shares) = extinction(random);
     let mean: f64 = shares.windows(2).map(|w| (w[1][0] - w[0][0]) * (w[0][1] + w[1][1]) / 2.0).sum();
-    let depth = match pick(random, 8) {
+    let depth = match pick(random, 14) {
         0 => 10.0_f64.powf(random.between(-12.0, 12.0)),
-        1 => 10.0_f64.powf(random.between(1.0, 4.0)),
-        _ => 10.0_f64.powf(random.between(-1.0, 1.5)),
+        1 | 2 => 10.0_f64.powf(random.between(1.0, 4.0)),
+        _ => 10.0_f64.powf(random.between(-0.5, 1.5)),
     };
     // About so deep along the mesh's diagonal.
     let scale = depth / (2.0 * bounds.radius) / mean.max(0.05);

@@ -10,6 +10,9 @@ use crate::ways::Way;
 /// Judgements that a reduction may cost: some minutes at most.
 const MOST_TRIES: usize = 400;
 
+/// Share of a difference that has to stay: of many pixels beyond a limit the last is hardly so.
+const SHARE_KEPT: f64 = 0.3;
+
 /// A case made small.
 #[derive(Clone, Debug)]
 pub struct Reduced {
@@ -29,7 +32,8 @@ pub fn reduce(case: &Case, failure: &Failure, drawing: Drawing<'_>) -> Reduced {
     let ways = if failure.way == Way::Reference { vec![Way::Reference] } else { vec![Way::Reference, failure.way] };
     // Refusals are a matter of who else draws.
     let ways = if failure.fault == super::Fault::Refused { Way::ALL.to_vec() } else { ways };
-    let mut search = Search { ways, drawing, best: case.clone(), failure: failure.clone(), tries: 0 };
+    let mut search =
+        Search { ways, drawing, best: case.clone(), failure: failure.clone(), first: failure.size, tries: 0 };
     loop {
         let cells = search.best.tets.cells.len();
         search.fewer_cells();
@@ -49,6 +53,8 @@ struct Search<'a> {
     drawing: Drawing<'a>,
     best: Case,
     failure: Failure,
+    /// Size of the failure as it was found.
+    first: f64,
     tries: usize,
 }
 
@@ -60,7 +66,11 @@ impl Search<'_> {
         }
         self.tries += 1;
         let judged = judge(&case, &self.ways, self.drawing);
-        let same = judged.failures.into_iter().find(|f| f.fault == self.failure.fault && f.way == self.failure.way);
+        // No larger than needed, but no other failure that is hardly one.
+        let same = judged
+            .failures
+            .into_iter()
+            .find(|f| f.fault == self.failure.fault && f.way == self.failure.way && f.size >= SHARE_KEPT * self.first);
         let Some(failure) = same else { return false };
         (self.best, self.failure) = (case, failure);
         true
@@ -93,10 +103,8 @@ impl Search<'_> {
     }
 
     fn fewer_effects(&mut self) {
-        while let Some(index) = (0..self.best.scene.isosurface.len())
-            .find(|&index| self.change(|case| drop(case.scene.isosurface.remove(index))))
-        {
-            debug_assert!(index <= self.best.scene.isosurface.len());
+        for index in (0..self.best.scene.isosurface.len()).rev() {
+            self.change(|case| drop(case.scene.isosurface.remove(index)));
         }
         if self.best.scene.light.is_some() {
             self.change(|case| case.scene.light = None);
@@ -134,7 +142,7 @@ impl Search<'_> {
                 let end = (start + size).min(count(&self.best));
                 let done = end - start < count(&self.best)
                     && self.change(|case| {
-                        drop(case.scene.transfer.extinction.as_mut().map(|list| drop(list.drain(start..end))))
+                        case.scene.transfer.extinction.iter_mut().for_each(|list| drop(list.drain(start..end)));
                     });
                 if !done {
                     start = end;

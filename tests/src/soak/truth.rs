@@ -7,7 +7,7 @@
 //! light to many digits, so that nothing is hidden.
 
 use tetrascope::cpu::rays::RayTracer;
-use tetrascope::{Backend, Isosurfaces, Plan, SceneFile, Silent, TransferFunction, View, VolumeField};
+use tetrascope::{Backend, Isosurfaces, LinearImage, Plan, SceneFile, Silent, TransferFunction, View, VolumeField};
 
 /// How far a renderer's numbers are from the scene's.
 #[derive(Clone, Copy, Debug)]
@@ -35,7 +35,9 @@ pub(super) fn envelope(
 ) -> Option<Vec<[[f64; 2]; 4]>> {
     let mut found = vec![[[f64::INFINITY, f64::NEG_INFINITY]; 4]; pixels.len()];
     let plan = Plan { backend: Backend::Reference, ..plan.clone() };
-    let shift = reach.scalars * (range[1] - range[0]).max(range[0].abs().max(range[1].abs()) * 1e-16);
+    // Scalars far from 0 are known to no more than their own last digits, from which the reference interpolates.
+    let last_digits = 4.0 * f64::EPSILON * range[0].abs().max(range[1].abs());
+    let shift = (reach.scalars * (range[1] - range[0])).max(last_digits);
     // A ring, and a smaller one in it, as what is between two extremes may be neither.
     for [dx, dy] in RING {
         for size in [1.0, 0.25] {
@@ -51,6 +53,18 @@ pub(super) fn envelope(
         }
     }
     Some(found)
+}
+
+/// The reference's picture ray by ray: it draws fans of triangles too, which a clipped ray does not have.
+///
+/// `None` if it refuses.
+pub(super) fn ray_by_ray(field: &VolumeField<'_>, plan: &Plan) -> Option<LinearImage> {
+    let (width, height) = (plan.view.width, plan.view.height);
+    let pixels: Vec<[u32; 2]> = (0..height).flat_map(|y| (0..width).map(move |x| [x, y])).collect();
+    let mut found = vec![[[f64::INFINITY, f64::NEG_INFINITY]; 4]; pixels.len()];
+    add(field, plan, &pixels, &mut found)?;
+    let pixels = found.iter().map(|channels| channels.map(|[value, _]| value as f32)).collect();
+    LinearImage::from_pixels(width, height, pixels)
 }
 
 /// Directions in which rays are turned.

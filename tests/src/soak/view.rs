@@ -21,11 +21,14 @@ pub(super) fn size(random: &mut Random) -> (u32, u32) {
 pub(super) fn view(random: &mut Random, made: &Made, bounds: Bounds) -> (&'static str, CameraSection) {
     let Bounds { center, radius } = bounds;
     let direction = random.point().normalize_or(DVec3::Z);
+    let inward = random.unit() < 0.7;
     let corners = {
         let cell = made.tets.cells[pick(random, made.tets.cells.len())];
         cell.map(|v| made.tets.points[v as usize])
     };
     let target = center + random.point() * (0.2 * radius);
+    // From a place of the mesh mostly to its middle: outward there is often nothing.
+    let from = |eye: DVec3| if inward && eye != center { center } else { eye + direction * radius };
     // The eye, what it looks at, and the angle that shows a part of the mesh.
     let (kind, eye, target, fov) = match pick(random, 16) {
         0..=4 => {
@@ -38,7 +41,7 @@ pub(super) fn view(random: &mut Random, made: &Made, bounds: Bounds) -> (&'stati
         }
         6 => {
             let angle = random.between(120.0_f64, 175.0).to_radians();
-            ("wide", center + direction * (random.between(0.5, 1.5) * radius), target, angle)
+            ("wide", center + direction * (random.between(0.2, 1.0) * radius), target, angle)
         }
         7 => {
             let angle = random.between(0.1_f64, 2.0).to_radians();
@@ -49,16 +52,16 @@ pub(super) fn view(random: &mut Random, made: &Made, bounds: Bounds) -> (&'stati
             let [a, b, c] = [random.unit(), random.unit(), random.unit()];
             let weights = [a, b, c, random.unit()].map(|w| w + 0.01);
             let eye = corners.iter().zip(weights).map(|(&p, w)| p * w).sum::<DVec3>() / weights.iter().sum::<f64>();
-            ("inside a cell", eye, eye + direction * radius, random.between(0.6, 2.0))
+            ("inside a cell", eye, from(eye), random.between(0.6, 2.0))
         }
-        10 => ("on a vertex", corners[0], corners[0] + direction * radius, random.between(0.6, 2.0)),
+        10 => ("on a vertex", corners[0], from(corners[0]), random.between(0.6, 2.0)),
         11 => {
             let eye = (corners[0] + corners[1]) * 0.5;
-            ("on an edge", eye, eye + direction * radius, random.between(0.6, 2.0))
+            ("on an edge", eye, from(eye), random.between(0.6, 2.0))
         }
         12 => {
             let eye = (corners[0] + corners[1] + corners[2]) / 3.0;
-            ("on a face", eye, eye + direction * radius, random.between(0.6, 2.0))
+            ("on a face", eye, from(eye), random.between(0.6, 2.0))
         }
         13 => {
             let along = (corners[1] - corners[0]).normalize_or(direction);
@@ -81,7 +84,7 @@ pub(super) fn view(random: &mut Random, made: &Made, bounds: Bounds) -> (&'stati
         camera.height = Some(match pick(random, 3) {
             0 => 2.1 * radius,
             1 => radius * random.between(0.05, 1.5),
-            _ => radius * random.between(1.5, 20.0),
+            _ => radius * random.between(1.5, 8.0),
         });
     }
     (kind, camera)
