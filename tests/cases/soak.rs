@@ -1,6 +1,9 @@
 //! The soak test's own tests: some of its scenes in every change, and that it finds what is wrong.
 
-use tetrascope::{Rendered, VolumeField};
+use glam::DVec3;
+use tetrascope::integrate::OpticalModel;
+use tetrascope::{Choice, Integration, Rendered, SceneFile, VolumeField};
+use tetrascope_tests::hard::volume_of;
 use tetrascope_tests::soak::{Case, Fault, Tally, draw, judge, read_case, reduce, write_case};
 use tetrascope_tests::ways::Way;
 
@@ -79,4 +82,35 @@ fn soak_finds_a_planted_fault_and_reduces_it() {
     std::fs::remove_dir_all(&folder).unwrap();
     assert!(judge(&read, &Way::CPU, &planted).failures.iter().any(|failure| failure.fault == Fault::Differs));
     assert!(judge(&read, &Way::CPU, &draw).failures.is_empty());
+}
+
+/// Found by seed 438: a corner that lies nearly in the plane of the eye makes a triangle of the fan as narrow as rounding, over which a
+/// color was continued to 1e15.
+#[test]
+fn soak_438_fans_have_no_color_beyond_their_corners() {
+    let points = [
+        [0.005115353088709695, 1.2408723540708724, -0.5218645205606098],
+        [0.013936803922283914, 0.17343654725965602, 1.1365995219626155],
+        [-1.291039082284943, -0.2623977248374499, -0.27658356019031244],
+        [0.002112226856877397, 0.18483977597484685, 1.1440018679009603],
+    ]
+    .map(DVec3::from);
+    let volume = volume_of(&points, &[[0, 2, 1, 3]], &[-0.307, 0.122, -0.796, 0.97]);
+    let mut scene = SceneFile::of_mesh("in memory");
+    (scene.image.width, scene.image.height) = (8, 8);
+    scene.camera.eye = Some([0.02876450721952284, 1.2180658966404905, -0.5366692124372998]);
+    scene.camera.target = Some([-0.2660769616210248, 0.1300356100881993, 0.07419360364313832]);
+    scene.camera.up = Some([-0.23017380324552716, -0.9751808922309748, 0.611147825195528]);
+    scene.camera.fov_y = Some(40.39241719801015);
+    scene.optics.model = OpticalModel::DensityEmitter;
+    scene.transfer.color = Some(vec![[-0.992, 0.189, 0.601, 0.000159], [1.0, 0.407, 0.805, 0.836]]);
+    scene.transfer.extinction = Some(vec![[-0.688, 1.77]]);
+    scene.quality.integration = Choice::Named(Integration::Vertex);
+    let image = Way::Cpu.draw(&volume, &scene).unwrap().image;
+    assert!(image.pixels().iter().any(|pixel| pixel[3] > 0.01));
+    for pixel in image.pixels() {
+        for (channel, brightest) in pixel.iter().zip([0.407, 0.805, 0.836]) {
+            assert!(*channel <= pixel[3] * brightest * 1.0001, "{pixel:?}");
+        }
+    }
 }
