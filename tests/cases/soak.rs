@@ -23,7 +23,8 @@ fn soak_of_some_scenes_is_clean() {
     }
     println!("{tally}");
     assert!(failures.is_empty(), "{failures:#?}");
-    assert!(tally.share_shown() > 0.8, "{tally}");
+    // Of many seeds 83 % show something; of so few it may be some less.
+    assert!(tally.share_shown() > 0.7, "{tally}");
 }
 
 #[test]
@@ -37,7 +38,7 @@ fn soak_gives_the_same_scene_for_the_same_seed() {
     assert_ne!(Case::of(1).tets.points, Case::of(2).tets.points);
 }
 
-/// A fast renderer that is wrong as soon as a mesh has a cell at its lowest point, and in one pixel alone.
+/// A fast renderer that is wrong as soon as a mesh has a scalar above a number, and in one pixel alone.
 fn planted(way: Way, field: &VolumeField<'_>, plan: &tetrascope::Plan) -> Result<Rendered, tetrascope::Error> {
     let mut rendered = draw(way, field, plan)?;
     let has_it = field.on_mesh.scalars.iter().any(|scalar| *scalar > PLANTED);
@@ -49,7 +50,7 @@ fn planted(way: Way, field: &VolumeField<'_>, plan: &tetrascope::Plan) -> Result
     Ok(rendered)
 }
 
-/// Above all scalars of the seed but a few.
+/// Above all scalars but a few.
 const PLANTED: f64 = 0.9;
 
 #[test]
