@@ -22,4 +22,5 @@ mod plan;
 mod real_meshes;
 mod references;
 mod saving;
+mod soak;
 mod work;

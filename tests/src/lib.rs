@@ -12,5 +12,6 @@ pub mod pictures;
 pub mod scenes;
 pub mod shapes;
 pub mod shared;
+pub mod soak;
 pub mod surfaces;
 pub mod ways;

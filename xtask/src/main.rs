@@ -7,6 +7,7 @@ mod ci;
 mod figures;
 mod golden;
 mod peers;
+mod soak;
 mod tidy;
 
 use std::path::{Path, PathBuf};
@@ -34,6 +35,8 @@ enum Task {
     Figures(figures::Args),
     /// Hard cases and known faults drawn by VTK, beside our pictures of them
     Peers(peers::Args),
+    /// Random scenes in every way, compared with one another; what fails is reduced and written
+    Soak(soak::Args),
 }
 
 fn main() -> ExitCode {
@@ -45,6 +48,7 @@ fn main() -> ExitCode {
         Task::Accuracy(args) => accuracy::run(&args),
         Task::Figures(args) => figures::run(&args),
         Task::Peers(args) => peers::run(&args),
+        Task::Soak(args) => soak::run(&args),
     };
     match done {
         Ok(()) => ExitCode::SUCCESS,

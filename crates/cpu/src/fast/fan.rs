@@ -27,6 +27,8 @@ pub(crate) struct Fan {
     /// Light at the thick vertex: color, not multiplied by opacity where the model has one.
     peak: [f32; 3],
     opacity: f32,
+    /// Lowest and highest of each channel over the corners and the thick vertex: no color between them is beyond, however narrow a triangle is.
+    bounds: [[f32; 2]; 3],
     /// One over the nearness of the thick vertex's chord.
     inverse_nearness: f32,
 }
@@ -81,12 +83,18 @@ impl FanSetUp<'_> {
             count: 0,
             peak: peak.map(|x| x as f32),
             opacity: light.opacity as f32,
+            bounds: peak.map(|x| [x as f32; 2]),
             inverse_nearness: (1.0 / nearness) as f32,
         };
         if !has_color {
             return Some(fan);
         }
         let colors = scalars.map(|s| self.value(cell, s).1);
+        for color in &colors {
+            for ([low, high], channel) in fan.bounds.iter_mut().zip(color) {
+                (*low, *high) = (low.min(*channel as f32), high.max(*channel as f32));
+            }
+        }
         for [_, i, j] in projected.fan.triangles() {
             let (FanVertex::Corner(i), FanVertex::Corner(j)) = (i, j) else { continue };
             let (p, q) = (on_screen(corners[i]), on_screen(corners[j]));
@@ -101,15 +109,19 @@ impl FanSetUp<'_> {
                 let turn = area.signum();
                 [spoke.perp_dot(from_center) * turn, -spoke.y * turn, spoke.x * turn].map(|x| x as f32)
             };
-            fan.spokes[fan.count] = side(to_p);
-            fan.spokes[fan.count + 1] = side(to_q);
-            for c in 0..3 {
+            let planes = [0, 1, 2].map(|c| {
                 // The gradient g with g . to_p and g . to_q the differences of color.
                 let (dp, dq) = (p_color[c] - peak[c], q_color[c] - peak[c]);
                 let gradient = DVec2::new(dp * to_q.y - dq * to_p.y, dq * to_p.x - dp * to_q.x) / area;
-                fan.colors[fan.count][c] =
-                    [peak[c] + gradient.dot(from_center), gradient.x, gradient.y].map(|x| x as f32);
+                [peak[c] + gradient.dot(from_center), gradient.x, gradient.y].map(|x| x as f32)
+            });
+            // A triangle as narrow as f64's last digits: no pixel is in it.
+            if !planes.iter().flatten().all(|x| x.is_finite()) {
+                continue;
             }
+            fan.spokes[fan.count] = side(to_p);
+            fan.spokes[fan.count + 1] = side(to_q);
+            fan.colors[fan.count] = planes;
             fan.count += 1;
         }
         Some(fan)
@@ -140,8 +152,9 @@ impl Fan {
             let begins = plane(simd, &self.spokes[triangle], sample).simd_ge(f32x8::splat(simd, 0.0));
             let ends = plane(simd, &self.spokes[triangle + 1], sample).simd_lt(f32x8::splat(simd, 0.0));
             let inside = begins & ends;
-            for (channel, over) in color.iter_mut().zip(&self.colors[triangle]) {
-                *channel = inside.select(plane(simd, over, sample).max(0.0), *channel);
+            for ((channel, over), [low, high]) in color.iter_mut().zip(&self.colors[triangle]).zip(&self.bounds) {
+                let between = plane(simd, over, sample).max(*low).min(*high);
+                *channel = inside.select(between, *channel);
             }
         }
         Light { rgb: [color[0] * opacity, color[1] * opacity, color[2] * opacity], opacity }

@@ -1,0 +1,179 @@
+//! What a pixel may be: the reference's light of its ray, and of scenes a rounding away.
+//!
+//! Where a ray runs along a silhouette, meets an isosurface at a grazing angle, or where the transfer function is as steep as a cliff, the
+//! picture is no continuous function of the scene: a last digit decides. A pixel is right there if it is right for a scene that differs by no
+//! more than the renderer rounds, which is what numerical analysis calls backward stable. The reference is asked for such scenes: rays
+//! are turned by small parts of a pixel, points moved by small parts of the cells about them, scalars and the control points of the transfer
+//! function by small parts of the range, each by itself. Elsewhere all of these give the same light to many digits, so that nothing is hidden.
+
+use glam::DVec3;
+use tetrascope::cpu::rays::RayTracer;
+use tetrascope::mesh::TetMesh;
+use tetrascope::{Backend, Isosurfaces, LinearImage, Plan, SceneFile, Silent, TransferFunction, View, VolumeField};
+
+use crate::meshes::Random;
+
+/// How far a renderer's numbers are from the scene's.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Reach {
+    /// Of a ray, pixels.
+    pub(super) pixels: f64,
+    /// Of scalars and control points, share of the field's range.
+    pub(super) scalars: f64,
+    /// Of points, share of the longest edge of the cells that have them.
+    pub(super) edges: f64,
+    /// Of points, share of the mesh's size.
+    pub(super) size: f64,
+}
+
+/// Scenes that are asked for, besides the one itself.
+const SCENES: u32 = 32;
+/// These are samples: as much as this share of their width may be missing at either end.
+const MISSING: f64 = 0.5;
+
+/// Lowest and highest value of each channel of the pixels asked for, over scenes within reach.
+///
+/// - `plan`: as the reference draws it
+/// - `scene`: that it was made from, with its transfer function in numbers
+/// - `range`: of the scalars
+///
+/// `None` if the reference refuses.
+pub(super) fn envelope(
+    field: &VolumeField<'_>,
+    plan: &Plan,
+    scene: &SceneFile,
+    pixels: &[[u32; 2]],
+    range: [f64; 2],
+    reach: Reach,
+) -> Option<Vec<[[f64; 2]; 4]>> {
+    let mut found = vec![[[f64::INFINITY, f64::NEG_INFINITY]; 4]; pixels.len()];
+    let plan = Plan { backend: Backend::Reference, ..plan.clone() };
+    let (mesh, scalars) = (field.on_mesh.mesh.as_ref(), &field.on_mesh.scalars);
+    // Scalars far from 0 are known to no more than their own last digits, from which the reference interpolates.
+    let last_digits = 4.0 * f64::EPSILON * range[0].abs().max(range[1].abs());
+    let shift = (reach.scalars * (range[1] - range[0])).max(last_digits);
+    let steps = steps(mesh, reach);
+    let mut random = Random::new(0x7A17);
+    add(mesh, scalars, &plan, pixels, &mut found)?;
+    for number in 0..SCENES {
+        // Small ones too, as what is between two extremes may be neither.
+        let share = [1.0, 0.5, 0.25, 0.1][number as usize % 4];
+        let turn = [random.between(-1.0, 1.0), random.between(-1.0, 1.0)].map(|d| d * reach.pixels * share);
+        let mut moved = plan.clone();
+        moved.view = turned(&plan.view, turn);
+        if number & 4 != 0 {
+            moved = with_transfer_moved(&moved, scene, shift * share, &mut random)?;
+        }
+        let all = random.between(-1.0, 1.0);
+        let scalars: Vec<f64> = scalars
+            .iter()
+            .map(|scalar| scalar + shift * share * if number & 8 != 0 { all } else { random.between(-1.0, 1.0) })
+            .collect();
+        if number & 16 != 0 {
+            // A cell that has no volume there is no sample.
+            if let Some(mesh) = moved_mesh(mesh, &steps, share, &mut random) {
+                add(&mesh, &scalars, &moved, pixels, &mut found)?;
+            }
+        } else {
+            add(mesh, &scalars, &moved, pixels, &mut found)?;
+        }
+    }
+    for [low, high] in found.iter_mut().flatten() {
+        let missing = MISSING * (*high - *low);
+        (*low, *high) = (*low - missing, *high + missing);
+    }
+    Some(found)
+}
+
+/// For every point how far it may be moved, local units.
+fn steps(mesh: &TetMesh, reach: Reach) -> Vec<f64> {
+    let mut steps = vec![0.0_f64; mesh.positions().len()];
+    for cell in mesh.tetrahedra() {
+        let corners = cell.map(|v| mesh.positions()[v.index()]);
+        let longest = (0..4).flat_map(|i| (0..i).map(move |j| (i, j))).map(|(i, j)| (corners[i] - corners[j]).length());
+        let longest = longest.fold(0.0, f64::max);
+        for v in cell {
+            // No point of a mesh is farther than about 1 from the middle, in its own units.
+            steps[v.index()] = steps[v.index()].max(longest * reach.edges).max(reach.size);
+        }
+    }
+    steps
+}
+
+fn moved_mesh(mesh: &TetMesh, steps: &[f64], share: f64, random: &mut Random) -> Option<TetMesh> {
+    let points: Vec<DVec3> = mesh
+        .positions()
+        .iter()
+        .zip(steps)
+        .map(|(&p, &step)| mesh.frame().to_world(p + random.point() * (step * share)))
+        .collect();
+    let cells: Vec<[u32; 4]> = mesh.tetrahedra().iter().map(|cell| cell.map(|v| v.0)).collect();
+    Some(TetMesh::from_tetrahedra(&points, &cells).ok()?.mesh)
+}
+
+/// The reference's picture ray by ray: it draws fans of triangles too, which a clipped ray does not have.
+///
+/// `None` if it refuses.
+pub(super) fn ray_by_ray(field: &VolumeField<'_>, plan: &Plan) -> Option<LinearImage> {
+    let (width, height) = (plan.view.width, plan.view.height);
+    let pixels: Vec<[u32; 2]> = (0..height).flat_map(|y| (0..width).map(move |x| [x, y])).collect();
+    let mut found = vec![[[f64::INFINITY, f64::NEG_INFINITY]; 4]; pixels.len()];
+    add(field.on_mesh.mesh.as_ref(), &field.on_mesh.scalars, plan, &pixels, &mut found)?;
+    let pixels = found.iter().map(|channels| channels.map(|[value, _]| value as f32)).collect();
+    LinearImage::from_pixels(width, height, pixels)
+}
+
+fn add(mesh: &TetMesh, scalars: &[f64], plan: &Plan, pixels: &[[u32; 2]], found: &mut [[[f64; 2]; 4]]) -> Option<()> {
+    let tracer = RayTracer::new(mesh, scalars, &plan.view).ok()?;
+    let rays = tracer.trace(pixels);
+    let shader = tracer.shader(plan, &Silent).ok()?;
+    for (ray, channels) in found.iter_mut().enumerate() {
+        let light = shader.light(&rays, ray);
+        for (channel, value) in channels.iter_mut().zip([light.rgb[0], light.rgb[1], light.rgb[2], light.opacity]) {
+            *channel = [channel[0].min(value), channel[1].max(value)];
+        }
+    }
+    Some(())
+}
+
+/// The view with all rays moved by about so many pixels: a camera that is turned about its eye, or moved where rays are parallel.
+fn turned(view: &View, [x, y]: [f64; 2]) -> View {
+    let [dx, dy] =
+        [x * 2.0 * view.half_width / f64::from(view.width), y * 2.0 * view.half_height / f64::from(view.height)];
+    let mut view = *view;
+    if !view.is_perspective {
+        view.eye += view.right * dx + view.up * dy;
+        return view;
+    }
+    let forward = (view.forward + view.right * dx + view.up * dy).normalize();
+    let right = (view.right - forward * view.right.dot(forward)).normalize();
+    (view.forward, view.right, view.up) = (forward, right, right.cross(forward));
+    view
+}
+
+/// The plan with every control point and every surface's value moved by up to so much; what stood at one scalar still does.
+fn with_transfer_moved(plan: &Plan, scene: &SceneFile, most: f64, random: &mut Random) -> Option<Plan> {
+    let mut moved = |scalars: Vec<f64>| {
+        let mut list: Vec<f64> = Vec::with_capacity(scalars.len());
+        for (index, &scalar) in scalars.iter().enumerate() {
+            let is_step = index > 0 && scalars[index - 1] == scalar;
+            let next = if is_step { list[index - 1] } else { scalar + most * random.between(-1.0, 1.0) };
+            list.push(list.last().map_or(next, |last| last.max(next)));
+        }
+        list
+    };
+    let mut color: Vec<[f64; 4]> = scene.transfer.color.clone().unwrap_or_default();
+    let mut extinction: Vec<[f64; 2]> = scene.transfer.extinction.clone().unwrap_or_default();
+    let scalars = moved(color.iter().map(|point| point[0]).collect());
+    color.iter_mut().zip(scalars).for_each(|(point, scalar)| point[0] = scalar);
+    let scalars = moved(extinction.iter().map(|point| point[0]).collect());
+    extinction.iter_mut().zip(scalars).for_each(|(point, scalar)| point[0] = scalar);
+    let mut plan = plan.clone();
+    plan.transfer = TransferFunction::new(&color, &extinction).ok()?;
+    if let Some(isosurfaces) = &mut plan.isosurfaces {
+        let mut surfaces = isosurfaces.surfaces.as_slice().to_vec();
+        surfaces.iter_mut().for_each(|surface| surface.value += most * random.between(-1.0, 1.0));
+        isosurfaces.surfaces = Isosurfaces::new(surfaces).ok()?;
+    }
+    Some(plan)
+}
