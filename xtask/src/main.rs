@@ -5,6 +5,7 @@ mod accuracy;
 mod bench;
 mod ci;
 mod figures;
+mod fuzz;
 mod golden;
 mod tidy;
 
@@ -31,6 +32,8 @@ enum Task {
     Accuracy(accuracy::Args),
     /// The pictures of docs/gallery.md
     Figures(figures::Args),
+    /// Hostile files of chance for every reader
+    Fuzz(fuzz::Args),
 }
 
 fn main() -> ExitCode {
@@ -41,6 +44,7 @@ fn main() -> ExitCode {
         Task::Bench(args) => bench::run(&args),
         Task::Accuracy(args) => accuracy::run(&args),
         Task::Figures(args) => figures::run(&args),
+        Task::Fuzz(args) => fuzz::run(&args),
     };
     match done {
         Ok(()) => ExitCode::SUCCESS,
