@@ -36,6 +36,7 @@ pub fn read_mesh(path: &Path, solution: Option<&Path>) -> Result<Loaded, IoError
 
     let mut loaded = reader.read(&source)?;
     loaded.warnings = loaded.warnings.into_iter().map(printable).collect();
+    loaded.format = printable(loaded.format);
     let named_otherwise =
         expected.is_some_and(|other| other.name() != reader.name()) || foreign::is_foreign_extension(&extension);
     // Extensions that two readers share say nothing against either.
