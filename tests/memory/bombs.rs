@@ -237,6 +237,13 @@ fn pictures_of_nothing_are_refused() {
         let file = png_chunks(&[header(width, height), data.clone(), end.clone()]);
         read("huge.png", &file, Refused(&["PNG"]), 1 << 20);
     }
+    // The decoder panics on these.
+    for length in [1, 4, 767, 771, 2000] {
+        let indexed = chunk(b"IHDR", &[0, 0, 0, 1, 0, 0, 0, 1, 8, 3, 0, 0, 0]);
+        let line = chunk(b"IDAT", &Compressor::Zlib.block(&[0, 0]));
+        let file = png_chunks(&[indexed, chunk(b"PLTE", &vec![9; length]), line, end.clone()]);
+        read("palette.png", &file, Refused(&["palette"]), 1 << 20);
+    }
     // As many pixels as are always read, of which there is no line.
     let file = png_chunks(&[header(2048, 2048), data.clone(), end.clone()]);
     read("empty.png", &file, Refused(&["PNG"]), 32 << 20);

@@ -93,6 +93,12 @@ fn decode_samples(bytes: &[u8]) -> Result<PngImage, String> {
     // Palettes and single bits to 8 bits, a transparent color to alpha.
     decoder.set_transformations(png::Transformations::EXPAND);
     let mut reader = decoder.read_info().map_err(|error| error.to_string())?;
+    // The decoder copies entries of three bytes into a table of 256 and panics on any other palette.
+    if let Some(palette) = reader.info().palette.as_deref()
+        && !(palette.len().is_multiple_of(3) && palette.len() <= 768)
+    {
+        return Err(format!("its palette has {} bytes, where three each for at most 256 colors belong", palette.len()));
+    }
     let (width, height) = reader.info().size();
     let pixel = reader.info().bytes_per_pixel().max(1) as u64;
     let limit = ((bytes.len() as u64).saturating_mul(SAMPLES_PER_BYTE) / pixel).clamp(PIXELS_ALWAYS_READ, MOST_PIXELS);

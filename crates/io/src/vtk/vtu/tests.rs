@@ -392,3 +392,25 @@ pub(in crate::vtk) fn decompress_with_all(block: &[u8], size: usize) {
     chunk.resize(41, 0);
     let _ = inflate(Compressor::Lzma, &[&container[..30], &chunk, &[0]].concat(), 100, &mut Vec::new());
 }
+
+/// The lines of the whole file were counted once for each index array of each piece, which took time with the square of their number.
+#[test]
+fn vtu_many_pieces_are_not_looked_through_again_and_again() {
+    super::xml::LOOKED_THROUGH.set(0);
+    good(&file(&two_tets("", "").repeat(200)));
+    assert_eq!(super::xml::LOOKED_THROUGH.get(), 0);
+    let broken = file(&(two_tets("", "").repeat(200) + &two_tets("", "").replace("4 8", "4 8 8")));
+    assert!(message(&broken).contains("it has 3 values"));
+    let looked_through = super::xml::LOOKED_THROUGH.get();
+    assert!(looked_through > 0 && looked_through <= 2 * broken.len(), "{looked_through}");
+}
+
+/// Arrays that are compressed, or that share an offset, come to a stated number of numbers.
+#[test]
+fn vtu_arrays_have_a_limit_together() {
+    let source = crate::Source { path: "a.vtu".into(), bytes: ascii_file().into_bytes(), solution: None };
+    let parsed = super::xml::parse(&source).unwrap();
+    parsed.spend(1 << 22).unwrap();
+    let error = parsed.spend(1).unwrap_err();
+    assert!(error.contains("16 numbers a byte") && error.contains("limit"), "{error}");
+}

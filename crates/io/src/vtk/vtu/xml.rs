@@ -223,8 +223,16 @@ fn position(reader: &Reader<&[u8]>) -> usize {
     usize::try_from(reader.buffer_position()).unwrap_or(usize::MAX)
 }
 
-/// A place in words: the line, counted from 1.
+#[cfg(test)]
+thread_local! {
+    /// Bytes that were looked through for the numbers of lines.
+    pub(super) static LOOKED_THROUGH: Cell<usize> = const { Cell::new(0) };
+}
+
+/// A place in words: the line, counted from 1. It looks through all that is before, so that it is for errors alone.
 pub(super) fn line(bytes: &[u8], at: usize) -> String {
+    #[cfg(test)]
+    LOOKED_THROUGH.set(LOOKED_THROUGH.get() + at);
     let before = &bytes[..at.min(bytes.len())];
     format!("line {}", 1 + before.iter().filter(|&&byte| byte == b'\n').count())
 }
