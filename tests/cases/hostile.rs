@@ -131,15 +131,6 @@ fn names_all(error: &Error, path: &Path) -> bool {
     }
 }
 
-/// What the warnings of a file say that is read although something in it is odd.
-const SAID: &[(&str, &[&str])] = &[
-    ("array_name_empty.vtu", &["point array has no name", "`unnamed1`"]),
-    ("array_names_repeated.vtu", &["two point arrays are named `s`", "`s_2`"]),
-    ("constant_scalar.vtu", &["the field is 2.5 everywhere"]),
-    ("legacy_vtk_named.msh", &["named .msh", "VTK legacy"]),
-    ("vtu_named.vtk", &["named .vtk", "XML"]),
-];
-
 /// Colors are finite and not negative, opacities from 0 to 1.
 fn is_sound(image: &LinearImage) -> bool {
     image.pixels().iter().all(|p| p.iter().all(|c| c.is_finite() && *c >= 0.0) && p[3] <= 1.0)
@@ -166,11 +157,7 @@ fn hostile_files_end_in_a_picture_or_in_an_error() {
         };
         println!("{name}: {found}");
         let is_right = match (&result, expected) {
-            (Ok(Ok(picture)), Some(Draws)) => {
-                let words = SAID.iter().find(|(said, _)| said == name).map_or(&[][..], |(_, words)| words);
-                let is_said = |word: &&str| picture.warnings.iter().any(|warning| warning.contains(word));
-                !is_blank(&picture.image) && is_sound(&picture.image) && words.iter().all(is_said)
-            }
+            (Ok(Ok(picture)), Some(Draws)) => !is_blank(&picture.image) && is_sound(&picture.image),
             (Ok(Ok(picture)), Some(DrawsNothing)) => {
                 is_blank(&picture.image)
                     && is_sound(&picture.image)
@@ -195,6 +182,43 @@ fn hostile_files_end_in_a_picture_or_in_an_error() {
         }
     }
     assert!(failures.is_empty(), "{failures:#?}");
+}
+
+/// What is said of a file that is drawn although something in it is odd.
+const SAID: &[(&str, &[&str])] = &[
+    ("array_name_empty.vtu", &["point array has no name", "`unnamed1`"]),
+    ("array_names_repeated.vtu", &["two point arrays are named `s`", "`s_2`"]),
+    ("constant_scalar.vtu", &["the field is 2.5 everywhere"]),
+    ("inverted_tets.vtu", &["160 of 320 tetrahedra were inverted"]),
+    ("legacy_vtk_named.msh", &["named .msh", "its content is VTK legacy"]),
+    ("nan_coordinates.vtu", &["32 cells use points whose coordinates are not finite"]),
+    ("nan_inf_scalars_ascii.vtu", &["38 of 320 tetrahedra are left out", "5 points"]),
+    ("nan_inf_scalars_binary.vtu", &["38 of 320 tetrahedra are left out", "5 points"]),
+    ("nonconforming_faces.vtu", &["2 of 3 tetrahedra were inverted"]),
+    ("overlapping_tets.vtu", &["the mesh overlaps itself", "1 pairs of tetrahedra"]),
+    ("repeated_vertex_cells.vtu", &["2 of 320 tetrahedra have no volume"]),
+    ("sliver_aspect_1e7.vtu", &["the picture is blank"]),
+    ("tet_with_three_points.vtu", &["cell 3 (Tetrahedron) has 3 points, its kind has 4"]),
+    ("unknown_cell_type.vtu", &["VTK's type 250", "points, lines or faces"]),
+    ("utm_offset_float32.vtu", &["160 of 320 tetrahedra have no volume"]),
+    ("vtu_named.vtk", &["named .vtk", "its content is VTK XML"]),
+    ("zero_volume_tets.vtu", &["3 of 43 tetrahedra have no volume"]),
+];
+
+#[test]
+fn hostile_files_that_are_drawn_say_what_is_odd() {
+    let Some(folder) = folder("what is odd in hostile files") else { return };
+    for (name, words) in SAID {
+        let volume = load(&folder, name);
+        let picture = render_volume(&volume, &scene(Backend::Cpu), &Silent).unwrap();
+        // As the program tells it: of the file, of the cells, and of the picture.
+        let said = [&volume.warnings[..], &volume.decomposition.counts.findings(), &picture.warnings].concat();
+        let field = volume.field(None).unwrap();
+        let said = [&said[..], &field.on_mesh.warning().into_iter().collect::<Vec<_>>()].concat().join("\n");
+        for word in *words {
+            assert!(said.contains(word), "{name}: \"{word}\" is not in: {said}");
+        }
+    }
 }
 
 /// The opacity of both renderers agrees on every file that gives a picture: neither order nor f32 can explain a difference of

@@ -5,7 +5,7 @@ use tetrascope_tests::fuzz::{Judge, Target, input, is_sound};
 use crate::{allocated, alone};
 
 /// Files of each target.
-const FILES: u64 = 640;
+const FILES: u64 = 320;
 
 #[test]
 fn files_of_chance_are_read_or_refused() {

@@ -23,6 +23,7 @@ const METHODS: [OrderMethod; 5] = [
     OrderMethod::None,
     OrderMethod::Bucket { slabs: 20 },
     OrderMethod::Bucket { slabs: 1 },
+    OrderMethod::Bucket { slabs: u32::MAX },
     OrderMethod::Centroid,
     OrderMethod::Mpvo,
 ];

@@ -39,7 +39,7 @@ pub const fn most_allocated(target: Target, length: usize) -> usize {
         Target::VtkText | Target::VtkBinary => (1 << 9, 1 << 20),
         Target::Plot3dGrid | Target::Plot3dSolution => (1 << 10, 64 << 20),
         Target::Heights => (16, 1 << 16),
-        Target::Png | Target::Exr => (1 << 15, 512 << 20),
+        Target::Png | Target::Exr => (1 << 14, 256 << 20),
         Target::SceneToml | Target::SceneJson => (1 << 11, 1 << 20),
     };
     length.saturating_mul(times).saturating_add(more)

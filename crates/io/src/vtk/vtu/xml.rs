@@ -34,12 +34,12 @@ pub(super) struct VtuFile<'a> {
 }
 
 /// Numbers that all arrays of a file together may come to, a byte of the file. Without compression a byte is one number at most, as text or
-/// as bytes; what is more is compressed, or is named by several arrays at one offset. A real mesh, whose indices and coordinates differ,
-/// stays below 4. Without the bound, 100 kB of arrays that share an offset, or of zeros that were compressed, are gigabytes.
+/// as bytes; what is more is compressed, or is named by several arrays at one offset. The real meshes of the tests, whose indices and coordinates differ,
+/// stay below 1. Without the bound, 100 kB of arrays that share an offset, or of zeros that were compressed, are gigabytes.
 const NUMBERS_PER_BYTE: usize = 16;
 
-/// Numbers that are decoded whatever the file's length is: 32 MiB of the widest type.
-const NUMBERS_ALWAYS: usize = 1 << 22;
+/// Numbers that are decoded whatever the file's length is: 8 MiB of the widest type.
+const NUMBERS_ALWAYS: usize = 1 << 20;
 
 /// One `Piece` element.
 #[derive(Debug, Default)]
