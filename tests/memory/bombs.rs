@@ -79,7 +79,7 @@ fn compressed_zeros_are_not_followed() {
             other => other.block(&vec![0; 1 << 20]),
         };
         let mut file = format!(
-            "<VTKFile type=\"UnstructuredGrid\" header_type=\"UInt64\" compressor=\"{}\"><UnstructuredGrid><Piece NumberOfPoints=\"4\"\
+            "<VTKFile type=\"UnstructuredGrid\" header_type=\"UInt64\" compressor=\"{}\"><UnstructuredGrid><Piece NumberOfPoints=\"4\" \
              NumberOfCells=\"0\"><PointData><DataArray type=\"Float32\" Name=\"s\" format=\"appended\" offset=\"0\"/></PointData><Points>\
              <DataArray type=\"Float32\">0 0 0 0 0 0 0 0 0 0 0 0</DataArray></Points></Piece></UnstructuredGrid>\
              <AppendedData encoding=\"raw\">_",
@@ -116,7 +116,7 @@ fn many_empty_blocks_cost_little() {
     let _alone = alone();
     let blocks = 100_000_u64;
     let mut file = b"<VTKFile type=\"UnstructuredGrid\" header_type=\"UInt64\" compressor=\"vtkZLibDataCompressor\"><UnstructuredGrid>\
-        <Piece NumberOfPoints=\"0\" NumberOfCells=\"0\"><Points><DataArray type=\"Float32\" NumberOfComponents=\"3\" format=\"appended\"\
+        <Piece NumberOfPoints=\"0\" NumberOfCells=\"0\"><Points><DataArray type=\"Float32\" NumberOfComponents=\"3\" format=\"appended\" \
         offset=\"0\"/></Points></Piece></UnstructuredGrid><AppendedData encoding=\"raw\">_".to_vec();
     let empty = Compressor::Zlib.block(&[]);
     [blocks, 0, 0].iter().for_each(|word| file.extend(word.to_le_bytes()));

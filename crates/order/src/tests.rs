@@ -19,7 +19,7 @@ fn all(n: usize) -> Vec<CellId> {
     (0..n as u32).map(CellId).collect()
 }
 
-const METHODS: [OrderMethod; 5] = [
+const METHODS: [OrderMethod; 6] = [
     OrderMethod::None,
     OrderMethod::Bucket { slabs: 20 },
     OrderMethod::Bucket { slabs: 1 },
