@@ -3,6 +3,9 @@
 //! Whatever a file holds, the way ends in a picture of finite numbers or in an error that names the file; never in a panic.
 //! `EXPECTED` says which of the two for each file, so that a change of either kind shows.
 
+mod meshes;
+mod scenes;
+
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::{Path, PathBuf};
 
@@ -12,7 +15,7 @@ use tetrascope::{
     is_blank, render_volume,
 };
 use tetrascope_tests::pictures::{Worst, largest, mean_opacity};
-use tetrascope_tests::shared;
+use tetrascope_tests::{fuzz::check_whole, shared};
 
 const SIDE: u32 = 64;
 
@@ -111,6 +114,23 @@ fn draw(path: &Path, backend: Backend) -> Result<Picture, Error> {
     render_volume(&volume, &scene(backend), &Silent)
 }
 
+/// File, place and remedy: as fields of an error of a file, which are not empty; in the words of all others, whose place is the mesh or the
+/// field, the remedy stands behind a colon or a semicolon.
+fn names_all(error: &Error, path: &Path) -> bool {
+    let text = error.to_string();
+    let behind = text.split_once(&format!("{}: ", path.display())).map(|(_, words)| words);
+    let remedies = ["; ", ": check", ": only cells", "choose another"];
+    match error {
+        Error::Io(_) => check_whole(error, path).is_ok(),
+        Error::Mesh { .. } | Error::Field { .. } => {
+            let place =
+                behind.is_some_and(|words| ["the mesh", "the field", "the file"].iter().any(|p| words.starts_with(p)));
+            place && remedies.iter().any(|remedy| text.contains(remedy)) && check_whole(error, path).is_ok()
+        }
+        _ => false,
+    }
+}
+
 /// Colors are finite and not negative, opacities from 0 to 1.
 fn is_sound(image: &LinearImage) -> bool {
     image.pixels().iter().all(|p| p.iter().all(|c| c.is_finite() && *c >= 0.0) && p[3] <= 1.0)
@@ -146,7 +166,9 @@ fn hostile_files_end_in_a_picture_or_in_an_error() {
             (Ok(Err(error)), Some(Fails(words))) => {
                 let text = error.to_string();
                 // The solution is named where it does not fit its grid.
-                text.contains(words) && text.contains(name.trim_end_matches("xyz"))
+                text.contains(words)
+                    && text.contains(name.trim_end_matches("xyz"))
+                    && names_all(error, &folder.join(name))
             }
             _ => false,
         };
@@ -160,6 +182,43 @@ fn hostile_files_end_in_a_picture_or_in_an_error() {
         }
     }
     assert!(failures.is_empty(), "{failures:#?}");
+}
+
+/// What is said of a file that is drawn although something in it is odd.
+const SAID: &[(&str, &[&str])] = &[
+    ("array_name_empty.vtu", &["point array has no name", "`unnamed1`"]),
+    ("array_names_repeated.vtu", &["two point arrays are named `s`", "`s_2`"]),
+    ("constant_scalar.vtu", &["the field is 2.5 everywhere"]),
+    ("inverted_tets.vtu", &["160 of 320 tetrahedra were inverted"]),
+    ("legacy_vtk_named.msh", &["named .msh", "its content is VTK legacy"]),
+    ("nan_coordinates.vtu", &["32 cells use points whose coordinates are not finite"]),
+    ("nan_inf_scalars_ascii.vtu", &["38 of 320 tetrahedra are left out", "5 points"]),
+    ("nan_inf_scalars_binary.vtu", &["38 of 320 tetrahedra are left out", "5 points"]),
+    ("nonconforming_faces.vtu", &["2 of 3 tetrahedra were inverted"]),
+    ("overlapping_tets.vtu", &["the mesh overlaps itself", "1 pairs of tetrahedra"]),
+    ("repeated_vertex_cells.vtu", &["2 of 320 tetrahedra have no volume"]),
+    ("sliver_aspect_1e7.vtu", &["the picture is blank"]),
+    ("tet_with_three_points.vtu", &["cell 3 (Tetrahedron) has 3 points, its kind has 4"]),
+    ("unknown_cell_type.vtu", &["VTK's type 250", "points, lines or faces"]),
+    ("utm_offset_float32.vtu", &["160 of 320 tetrahedra have no volume"]),
+    ("vtu_named.vtk", &["named .vtk", "its content is VTK XML"]),
+    ("zero_volume_tets.vtu", &["3 of 43 tetrahedra have no volume"]),
+];
+
+#[test]
+fn hostile_files_that_are_drawn_say_what_is_odd() {
+    let Some(folder) = folder("what is odd in hostile files") else { return };
+    for (name, words) in SAID {
+        let volume = load(&folder, name);
+        let picture = render_volume(&volume, &scene(Backend::Cpu), &Silent).unwrap();
+        // As the program tells it: of the file, of the cells, and of the picture.
+        let said = [&volume.warnings[..], &volume.decomposition.counts.findings(), &picture.warnings].concat();
+        let field = volume.field(None).unwrap();
+        let said = [&said[..], &field.on_mesh.warning().into_iter().collect::<Vec<_>>()].concat().join("\n");
+        for word in *words {
+            assert!(said.contains(word), "{name}: \"{word}\" is not in: {said}");
+        }
+    }
 }
 
 /// The opacity of both renderers agrees on every file that gives a picture: neither order nor f32 can explain a difference of

@@ -3,6 +3,7 @@
 pub mod chords;
 pub mod compare;
 pub mod effects;
+pub mod fuzz;
 pub mod golden;
 pub mod gpu;
 pub mod hard;

@@ -5,6 +5,7 @@ mod accuracy;
 mod bench;
 mod ci;
 mod figures;
+mod fuzz;
 mod golden;
 mod peers;
 mod soak;
@@ -37,6 +38,8 @@ enum Task {
     Peers(peers::Args),
     /// Random scenes in every way, compared with one another; what fails is reduced and written
     Soak(soak::Args),
+    /// Hostile files of chance for every reader
+    Fuzz(fuzz::Args),
 }
 
 fn main() -> ExitCode {
@@ -49,6 +52,7 @@ fn main() -> ExitCode {
         Task::Figures(args) => figures::run(&args),
         Task::Peers(args) => peers::run(&args),
         Task::Soak(args) => soak::run(&args),
+        Task::Fuzz(args) => fuzz::run(&args),
     };
     match done {
         Ok(()) => ExitCode::SUCCESS,

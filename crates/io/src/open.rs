@@ -2,6 +2,7 @@
 
 use std::path::Path;
 
+use crate::read::printable;
 use crate::{IoError, Loaded, MeshReader, Source, foreign, plot3d::PLOT3D, vtk};
 
 /// All readers, in the order in which they are asked whether they recognize a file.
@@ -34,6 +35,8 @@ pub fn read_mesh(path: &Path, solution: Option<&Path>) -> Result<Loaded, IoError
     };
 
     let mut loaded = reader.read(&source)?;
+    loaded.warnings = loaded.warnings.into_iter().map(printable).collect();
+    loaded.format = printable(loaded.format);
     let named_otherwise =
         expected.is_some_and(|other| other.name() != reader.name()) || foreign::is_foreign_extension(&extension);
     // Extensions that two readers share say nothing against either.

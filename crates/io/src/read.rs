@@ -51,15 +51,15 @@ impl Source {
     pub fn invalid(&self, place: impl Into<String>, problem: impl Into<String>, remedy: impl Into<String>) -> IoError {
         IoError::Invalid {
             path: self.path.clone(),
-            place: place.into(),
-            problem: problem.into(),
+            place: printable(place.into()),
+            problem: printable(problem.into()),
             remedy: remedy.into(),
         }
     }
 
     /// An [`IoError::Unsupported`] about this file.
     pub fn unsupported(&self, what: impl Into<String>, remedy: impl Into<String>) -> IoError {
-        IoError::Unsupported { path: self.path.clone(), what: what.into(), remedy: remedy.into() }
+        IoError::Unsupported { path: self.path.clone(), what: printable(what.into()), remedy: remedy.into() }
     }
 
     /// The file's extension in lower case, or nothing.
@@ -70,4 +70,35 @@ impl Source {
 
 pub(crate) fn extension(path: &Path) -> String {
     path.extension().map(|e| e.to_string_lossy().to_lowercase()).unwrap_or_default()
+}
+
+/// Longest part of a message, in characters: words and names of a file are repeated in it, and may be as long as the file.
+const LONGEST_TEXT: usize = 800;
+
+/// A text that has words of a file in it, as it may be shown: control characters, which can make a terminal do anything, give way to
+/// U+FFFD, and of a long text the middle is left out.
+pub(crate) fn printable(text: String) -> String {
+    let mut text = text;
+    if text.contains(char::is_control) {
+        text = text.chars().map(|c| if c.is_control() { char::REPLACEMENT_CHARACTER } else { c }).collect();
+    }
+    let length = text.chars().count();
+    if length > LONGEST_TEXT {
+        let start: String = text.chars().take(LONGEST_TEXT / 2).collect();
+        let end: String = text.chars().skip(length - LONGEST_TEXT / 2).collect();
+        text = format!("{start} ... {end}");
+    }
+    text
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn texts_of_files_can_be_shown() {
+        assert_eq!(printable("`\u{1b}[2Jα\n`".to_owned()), "`\u{fffd}[2Jα\u{fffd}`");
+        let long = printable("ab".repeat(100_000));
+        assert!(long.starts_with("abab") && long.ends_with("abab") && long.chars().count() == LONGEST_TEXT + 5);
+    }
 }

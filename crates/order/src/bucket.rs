@@ -9,7 +9,7 @@ use crate::{Cells, Guarantee, Order, VisibilityOrder};
 /// Puts the centroids into slabs of equal depth and leaves the cells of a slab as they come.
 ///
 /// Source: [Marroquim 2006], section 3.2, who use about 20 slabs while the view changes. Depth is the distance from the
-/// eye, or that along a parallel view's direction. One counting pass, no sort.
+/// eye, or that along a parallel view's direction. One counting pass, no sort, unless there are far more slabs than cells.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Bucket {
     /// Number of slabs, at least 1.
@@ -19,6 +19,10 @@ pub struct Bucket {
 impl Bucket {
     /// The paper's number of slabs.
     pub const DEFAULT_SLABS: u32 = 20;
+
+    /// Slabs that are counted however few the cells are. Beyond, and beyond the number of cells, counting would take memory for every slab:
+    /// 32 GiB for all that a scene can ask for.
+    const ALWAYS_COUNTED: usize = 1 << 16;
 }
 
 impl Default for Bucket {
@@ -40,6 +44,14 @@ impl VisibilityOrder for Bucket {
         let thickness = (highest - lowest) / slabs as f64;
         // A float below zero or NaN (all cells at one depth) becomes slab 0.
         let slab_of = |depth: f64| (((depth - lowest) / thickness) as usize).min(slabs - 1);
+
+        if slabs > drawn.len().max(Self::ALWAYS_COUNTED) {
+            let mut by_slab: Vec<(usize, CellId)> =
+                drawn.iter().zip(&depths).map(|(&cell, &d)| (slab_of(d), cell)).collect();
+            // Stable, as counting is: the order is the same.
+            by_slab.par_sort_by_key(|&(slab, _)| slab);
+            return Order::whole(by_slab.into_iter().map(|(_, cell)| cell).collect(), Guarantee::Approximate);
+        }
 
         let mut starts = vec![0_usize; slabs + 1];
         for &d in &depths {

@@ -19,10 +19,11 @@ fn all(n: usize) -> Vec<CellId> {
     (0..n as u32).map(CellId).collect()
 }
 
-const METHODS: [OrderMethod; 5] = [
+const METHODS: [OrderMethod; 6] = [
     OrderMethod::None,
     OrderMethod::Bucket { slabs: 20 },
     OrderMethod::Bucket { slabs: 1 },
+    OrderMethod::Bucket { slabs: u32::MAX },
     OrderMethod::Centroid,
     OrderMethod::Mpvo,
 ];

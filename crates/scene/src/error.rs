@@ -40,7 +40,7 @@ pub enum SceneError {
         remedy: &'static str,
     },
     /// The camera or the picture's size.
-    #[error(transparent)]
+    #[error("{}: {}", key_of_view(.0), .0)]
     View(#[from] ViewError),
     /// The transfer function.
     #[error("{}", of_transfer(.0))]
@@ -81,6 +81,20 @@ impl From<MethodError> for SceneError {
             other => Self::Integration(other),
         }
     }
+}
+
+/// The key that a view's error is about, before its words.
+fn key_of_view(error: &ViewError) -> String {
+    let key = match error {
+        ViewError::NotFinite { what, .. } => return format!("camera.{what}"),
+        ViewError::EyeIsTarget { .. } => "camera.eye",
+        ViewError::UpAlongSight { .. } => "camera.up",
+        ViewError::FieldOfView { .. } => "camera.fov_y",
+        ViewError::Height { .. } => "camera.height",
+        ViewError::ImageSize { .. } => "image.width and image.height",
+        _ => "camera",
+    };
+    key.to_owned()
 }
 
 /// The key and what is wrong with it: the list of a transfer function is named like its key.

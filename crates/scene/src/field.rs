@@ -146,8 +146,16 @@ fn list(known: &[ArraySummary]) -> String {
     if known.is_empty() {
         return " no arrays at all".to_owned();
     }
-    known.iter().map(|array| format!("\n  {array}")).collect()
+    let more = known.len().saturating_sub(MOST_LISTED);
+    let end = if more > 0 { format!("\n  and {more} more") } else { String::new() };
+    known.iter().take(MOST_LISTED).map(|array| format!("\n  {array}")).chain([end]).collect()
 }
+
+/// Arrays that a message lists: a file may have a million.
+const MOST_LISTED: usize = 50;
+
+/// Longest name, in characters, of what is not there: a scene may ask for anything.
+const LONGEST_NAME: usize = 200;
 
 /// All arrays of a dataset, points' first, in the file's order.
 pub fn summarize_arrays(dataset: &Dataset) -> Vec<ArraySummary> {
@@ -256,7 +264,7 @@ fn find<'a>(dataset: &'a Dataset, name: &'a str) -> Result<Found<'a>, FieldError
     {
         return Ok((association, array, Some(suffix)));
     }
-    Err(FieldError::Unknown { name: name.to_owned(), known: summarize_arrays(dataset) })
+    Err(FieldError::Unknown { name: name.chars().take(LONGEST_NAME).collect(), known: summarize_arrays(dataset) })
 }
 
 fn default_array<'a>(

@@ -267,3 +267,22 @@ fn a_completed_scene_is_complete() {
         assert_eq!(moved.file, once.file);
     }
 }
+
+/// Whatever a file holds, its messages do nothing to a terminal and do not fill it.
+#[test]
+fn messages_have_no_control_characters_and_an_end() {
+    let message = |text: &str, name: &str| SceneFile::parse(text, Path::new(name)).unwrap_err().to_string();
+    for key in ["path", "field", "solution"] {
+        let path = if key == "path" { "" } else { "path = \"a\"\n" };
+        let found = message(&format!("[mesh]\n{path}{key} = \"\\u001b[2J\"\n"), "a.toml");
+        assert!(found.contains(&format!("mesh.{key}")) && !found.contains('\u{1b}'), "{found}");
+    }
+    let raw = message("[mesh]\npath = \"a\u{1b}\u{7}\"\n", "a.toml");
+    assert!(raw.contains("line 2") && !raw.contains('\u{1b}'), "{raw}");
+    let unknown = message("[mesh]\npath = \"a\"\n\"\\u001b\" = 1\n", "a.toml");
+    assert!(unknown.contains("unknown key") && !unknown.contains('\u{1b}'), "{unknown}");
+    let json = message("{\"mesh\": {\"path\": \"a\", \"\\u001b[2J\": 1}}", "a.json");
+    assert!(json.contains("unknown key") && !json.contains('\u{1b}'), "{json}");
+    let long = message(&format!("[mesh]\npath = \"a\"\n{} = 1\n", "x".repeat(100_000)), "a.toml");
+    assert!(long.chars().count() < 3000, "{}", long.len());
+}

@@ -61,7 +61,13 @@ impl Position {
         let gutter = self.line.to_string();
         let indent: String =
             self.text.chars().take(self.column - 1).map(|c| if c == '\t' { '\t' } else { ' ' }).collect();
-        format!("\n{gutter} | {}\n{} | {indent}^", self.text, " ".repeat(gutter.len()))
+        // Not one character more or less: the mark stays where it belongs.
+        let text: String = self
+            .text
+            .chars()
+            .map(|c| if c.is_control() && c != '\t' { char::REPLACEMENT_CHARACTER } else { c })
+            .collect();
+        format!("\n{gutter} | {text}\n{} | {indent}^", " ".repeat(gutter.len()))
     }
 }
 
@@ -73,7 +79,7 @@ impl SceneFile {
     /// known there), a value of the wrong type or an unknown name.
     pub fn parse(text: &str, path: &Path) -> Result<Self, SceneSyntaxError> {
         let text = text.strip_prefix('\u{feff}').unwrap_or(text);
-        if is_json(path) {
+        let scene: Self = if is_json(path) {
             serde_json::from_str(text).map_err(|error| {
                 // A value that ends too early is at line 0 for an empty text.
                 let position = Some(Position::of_line(text, error.line().max(1), error.column().max(1)));
@@ -81,14 +87,39 @@ impl SceneFile {
                 let place = format!(" at line {} column {}", error.line(), error.column());
                 let message = reworded(message.strip_suffix(&place).unwrap_or(&message));
                 SceneSyntaxError { path: path.to_owned(), position, key: None, message }
-            })
+            })?
         } else {
             toml::from_str(text).map_err(|error: toml::de::Error| {
                 let position = error.span().map(|span| Position::of_byte(text, span.start));
                 let message = reworded(error.message());
-                SceneSyntaxError { path: path.to_owned(), position, key: key_of(&error), message }
-            })
+                let key = key_of(&error).map(|key| printable(&key));
+                SceneSyntaxError { path: path.to_owned(), position, key, message }
+            })?
+        };
+        match scene.key_with_control_characters() {
+            None => Ok(scene),
+            Some(key) => Err(SceneSyntaxError {
+                path: path.to_owned(),
+                position: None,
+                key: Some(key.to_owned()),
+                message: "it has control characters, which no name here has; remove them".to_owned(),
+            }),
         }
+    }
+
+    /// A key whose text would make a terminal do anything where it is shown: all of them appear in messages.
+    fn key_with_control_characters(&self) -> Option<&'static str> {
+        let path = |path: &Path| path.to_string_lossy().contains(char::is_control);
+        let text = |text: &Option<String>| text.as_deref().is_some_and(|text| text.contains(char::is_control));
+        let keys = [
+            ("mesh.path", path(&self.mesh.path)),
+            ("mesh.solution", self.mesh.solution.as_deref().is_some_and(path)),
+            ("mesh.field", text(&self.mesh.field)),
+            ("transfer.preset", self.transfer.preset.as_deref().is_some_and(path)),
+            ("surface.path", self.surface.iter().any(|surface| path(&surface.path))),
+            ("quality.adapter", text(&self.quality.adapter)),
+        ];
+        keys.into_iter().find_map(|(key, is_odd)| is_odd.then_some(key))
     }
 
     /// The scene as TOML. Numbers are written with the fewest digits that give the same f64 back.
@@ -134,7 +165,7 @@ fn key_of(error: &toml::de::Error) -> Option<String> {
 
 /// The library's words for what this file calls keys and names.
 fn reworded(message: &str) -> String {
-    message
+    printable(message)
         .replace("unknown field ", "unknown key ")
         .replace("missing field ", "missing key ")
         .replace("duplicate field ", "repeated key ")
@@ -142,6 +173,18 @@ fn reworded(message: &str) -> String {
         .replace(", expected one of ", "; known here are ")
         .trim_end()
         .to_owned()
+}
+
+/// Longest part of a message, in characters: unknown keys and names are repeated in it, and may be as long as the file.
+const LONGEST_MESSAGE: usize = 1000;
+
+/// A text with parts of a file in it, as it may be shown: without control characters, and not endless.
+fn printable(text: &str) -> String {
+    let shown = text.chars().map(|c| if c.is_control() && c != '\n' { char::REPLACEMENT_CHARACTER } else { c });
+    if text.chars().count() <= LONGEST_MESSAGE {
+        return shown.collect();
+    }
+    shown.take(LONGEST_MESSAGE).chain(" ...".chars()).collect()
 }
 
 /// Breaks lists of lists, so that a transfer function has a line for every control point.

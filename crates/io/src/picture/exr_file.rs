@@ -14,12 +14,12 @@ use super::{
 };
 use crate::{IoError, open::read_whole};
 
-/// How many pixels a byte of a compressed file may stand for. Deflate reaches 1032 bytes a byte, which is 258 pixels of
-/// one 32-bit channel; four times that leaves room for the other methods on constant pictures.
-const PIXELS_PER_BYTE: u64 = 1024;
+/// How many bytes of samples, of all channels, a byte of a compressed file may stand for. Deflate reaches 1032; three times that leaves room
+/// for half floats, which count as whole ones here, and for the other methods on constant pictures.
+const SAMPLES_PER_BYTE: u64 = 3072;
 
-/// Pictures up to this size are read whatever the file's length is: 4 megapixels are 64 MiB.
-const PIXELS_ALWAYS_READ: u64 = 1 << 22;
+/// Pictures up to this size are read whatever the file's length is: 4 megapixels of four channels are 64 MiB.
+const SAMPLES_ALWAYS_READ: u64 = 1 << 26;
 
 /// Memory that a pixel takes on its way out: at most as much as in the picture, as channels and in the file.
 const BYTES_PER_PIXEL: u64 = 32;
@@ -110,11 +110,17 @@ pub(super) fn decode(path: &Path, bytes: &[u8]) -> Result<LinearImage, IoError> 
 /// Refuses sizes that the file cannot hold, before anything is reserved for them.
 fn refuse_oversized(bytes: &[u8]) -> Result<(), String> {
     let meta = MetaData::read_from_buffered(io::Cursor::new(bytes), false).map_err(|error| error.to_string())?;
-    let limit = (bytes.len() as u64).saturating_mul(PIXELS_PER_BYTE).max(PIXELS_ALWAYS_READ);
+    let limit = (bytes.len() as u64).saturating_mul(SAMPLES_PER_BYTE).max(SAMPLES_ALWAYS_READ);
     for header in &meta.headers {
         let (width, height) = (header.layer_size.width() as u64, header.layer_size.height() as u64);
-        if width.checked_mul(height).is_none_or(|pixels| pixels > limit) {
-            return Err(format!("{width} x {height} pixels are declared, a file of this length holds {limit} at most"));
+        // Channels that are not wanted are decompressed with the others. Here a pixel of any picture takes the 16 bytes of R, G, B, A.
+        let pixel = header.channels.bytes_per_pixel.max(16) as u64;
+        if width.checked_mul(height).and_then(|pixels| pixels.checked_mul(pixel)).is_none_or(|size| size > limit) {
+            let channels = header.channels.list.len();
+            return Err(format!(
+                "{width} x {height} pixels of {channels} channels are declared, a file of this length holds {} at most",
+                limit / pixel
+            ));
         }
     }
     Ok(())

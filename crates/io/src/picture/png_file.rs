@@ -10,9 +10,9 @@ use super::{
 };
 use crate::{IoError, open::read_whole};
 
-/// How many pixels a byte of a file may stand for. Deflate reaches 1032 bytes a byte, which is so many pixels of one 8-bit channel; what
-/// more a picture of single bits could hold is no picture.
-const PIXELS_PER_BYTE: u64 = 1024;
+/// How many bytes of samples a byte of a file may stand for: what deflate reaches. A pixel counts as a byte at least; what more a picture of
+/// single bits could hold is no picture.
+const SAMPLES_PER_BYTE: u64 = 1032;
 
 /// Pictures up to this size are read whatever the file's length is: 4 megapixels are 32 MiB.
 const PIXELS_ALWAYS_READ: u64 = 1 << 22;
@@ -83,7 +83,7 @@ fn encode(image: &LinearImage, background: [f32; 3]) -> Result<Vec<u8>, png::Enc
 ///
 /// # Errors
 /// [`IoError::Read`] when the system does not give the file, [`IoError::Invalid`] when it is no such picture, is broken, declares more
-/// pixels than a file of its length can hold (1024 a byte, and 2²² whatever the length is), or more than 2²⁸.
+/// pixels than a file of its length can hold (1032 bytes of samples a byte, and 2²² pixels whatever the length is), or more than 2²⁸.
 pub fn read_png(path: &Path) -> Result<PngImage, IoError> {
     decode(path, &read_whole(path)?)
 }
@@ -104,8 +104,15 @@ fn decode_samples(bytes: &[u8]) -> Result<PngImage, String> {
     // Palettes and single bits to 8 bits, a transparent color to alpha.
     decoder.set_transformations(png::Transformations::EXPAND);
     let mut reader = decoder.read_info().map_err(|error| error.to_string())?;
+    // The decoder copies entries of three bytes into a table of 256 and panics on any other palette.
+    if let Some(palette) = reader.info().palette.as_deref()
+        && !(palette.len().is_multiple_of(3) && palette.len() <= 768)
+    {
+        return Err(format!("its palette has {} bytes, where three each for at most 256 colors belong", palette.len()));
+    }
     let (width, height) = reader.info().size();
-    let limit = (bytes.len() as u64).saturating_mul(PIXELS_PER_BYTE).clamp(PIXELS_ALWAYS_READ, MOST_PIXELS);
+    let pixel = reader.info().bytes_per_pixel().max(1) as u64;
+    let limit = ((bytes.len() as u64).saturating_mul(SAMPLES_PER_BYTE) / pixel).clamp(PIXELS_ALWAYS_READ, MOST_PIXELS);
     if u64::from(width) * u64::from(height) > limit {
         return Err(format!("{width} x {height} pixels are declared, a file of this length holds {limit} at most"));
     }
@@ -116,12 +123,17 @@ fn decode_samples(bytes: &[u8]) -> Result<PngImage, String> {
         return Err(format!("its picture has {} x {} pixels, not {width} x {height}", frame.width, frame.height));
     }
     samples.truncate(frame.buffer_size());
-    let pixels = match frame.bit_depth {
+    // Each pixel from its own bytes: a second copy of all samples would be as large as the picture.
+    let channels = frame.color_type.samples();
+    let pixels: Vec<[u16; 4]> = match frame.bit_depth {
         png::BitDepth::Sixteen => {
-            let pairs = samples.chunks_exact(2).map(|pair| u16::from_be_bytes([pair[0], pair[1]]));
-            to_rgba(&pairs.collect::<Vec<_>>(), frame.color_type)
+            let sample = |pixel: &[u8], at: usize| u16::from_be_bytes([pixel[2 * at], pixel[2 * at + 1]]);
+            samples.chunks_exact(2 * channels).map(|pixel| to_rgba(channels, |at| sample(pixel, at))).collect()
         }
-        _ => to_rgba(&samples.iter().map(|&sample| u16::from(sample) * 257).collect::<Vec<_>>(), frame.color_type),
+        _ => {
+            let pixel = |pixel: &[u8]| to_rgba(channels, |at| u16::from(pixel[at]) * 257);
+            samples.chunks_exact(channels).map(pixel).collect()
+        }
     };
     if pixels.len() as u64 != u64::from(width) * u64::from(height) {
         return Err(format!("{} pixels were found in a picture of {width} x {height}", pixels.len()));
@@ -129,15 +141,9 @@ fn decode_samples(bytes: &[u8]) -> Result<PngImage, String> {
     Ok(PngImage { width, height, pixels })
 }
 
-fn to_rgba(samples: &[u16], color_type: png::ColorType) -> Vec<[u16; 4]> {
-    samples
-        .chunks_exact(color_type.samples())
-        .map(|pixel| match *pixel {
-            [gray] => [gray, gray, gray, u16::MAX],
-            [gray, alpha] => [gray, gray, gray, alpha],
-            [r, g, b] => [r, g, b, u16::MAX],
-            [r, g, b, alpha, ..] => [r, g, b, alpha],
-            [] => [0; 4],
-        })
-        .collect()
+/// A pixel from its samples: gray, gray and alpha, RGB, or RGBA.
+fn to_rgba(channels: usize, sample: impl Fn(usize) -> u16) -> [u16; 4] {
+    let alpha = if channels.is_multiple_of(2) { sample(channels - 1) } else { u16::MAX };
+    let color = if channels < 3 { [sample(0); 3] } else { [sample(0), sample(1), sample(2)] };
+    [color[0], color[1], color[2], alpha]
 }

@@ -1,6 +1,6 @@
 //! The arrays of points or of cells, under names that are neither empty nor repeated.
 
-use std::collections::HashSet;
+use std::collections::{HashMap, HashSet};
 
 use tetrascope_mesh::{ArrayValues, DataArray};
 
@@ -9,11 +9,13 @@ use tetrascope_mesh::{ArrayValues, DataArray};
 pub(super) struct NamedArrays {
     arrays: Vec<DataArray>,
     taken: HashSet<String>,
+    /// The number to try next behind a prefix. Starting anew each time would take time with the square of the names' number.
+    next: HashMap<String, usize>,
 }
 
 impl NamedArrays {
-    /// Adds an array. An empty name becomes `unnamed1`, `unnamed2` and so on, a repeated name gets `_2`, `_3` behind it,
-    /// and `warnings` says so.
+    /// Adds an array. An empty name becomes `unnamed1`, `unnamed2` and so on, a repeated name gets `_2`, `_3` behind it, and control
+    /// characters, which can make a terminal do anything, become `_`; `warnings` says so.
     ///
     /// - `owner`: "point" or "cell", for the warning
     pub(super) fn add(
@@ -24,6 +26,11 @@ impl NamedArrays {
         values: ArrayValues,
         warnings: &mut Vec<String>,
     ) {
+        let shown = name.replace(char::is_control, "_");
+        if shown != name {
+            warnings.push(format!("the name of a {owner} array has control characters; it is called `{shown}` here"));
+        }
+        let name = shown.as_str();
         let given = if name.trim().is_empty() {
             let given = self.free_name("unnamed", 1);
             warnings.push(format!("a {owner} array has no name; it is called `{given}` here"));
@@ -44,15 +51,15 @@ impl NamedArrays {
         self.arrays
     }
 
-    fn free_name(&self, prefix: &str, first: usize) -> String {
-        // Starting at the count keeps a file of many equal names from taking time with the square of their number.
-        let of_prefix = |n: usize| format!("{prefix}{n}");
-        let first = if self.taken.contains(&of_prefix(first)) && self.arrays.len() > 1000 {
-            first + self.arrays.len()
-        } else {
-            first
-        };
-        (first..).map(of_prefix).find(|name| !self.taken.contains(name)).unwrap_or_default()
+    fn free_name(&mut self, prefix: &str, first: usize) -> String {
+        let next = self.next.entry(prefix.to_owned()).or_insert(first);
+        loop {
+            let name = format!("{prefix}{next}");
+            *next += 1;
+            if !self.taken.contains(&name) {
+                return name;
+            }
+        }
     }
 }
 
@@ -64,11 +71,11 @@ mod tests {
     fn repeated_and_empty_names() {
         let mut arrays = NamedArrays::default();
         let mut warnings = Vec::new();
-        for name in ["s", "", "s", "s_2", " ", "s"] {
+        for name in ["s", "", "s", "s_2", " ", "s", "\u{1b}]0;x\u{7}"] {
             arrays.add("point", name, 1, ArrayValues::F32(vec![]), &mut warnings);
         }
         let names: Vec<String> = arrays.into_arrays().into_iter().map(|a| a.name).collect();
-        assert_eq!(names, ["s", "unnamed1", "s_2", "s_2_2", "unnamed2", "s_3"]);
-        assert_eq!(warnings.len(), 5);
+        assert_eq!(names, ["s", "unnamed1", "s_2", "s_2_2", "unnamed2", "s_3", "_]0;x_"]);
+        assert_eq!(warnings.len(), 6);
     }
 }

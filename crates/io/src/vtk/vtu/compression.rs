@@ -1,8 +1,6 @@
 //! The three compressors of VTK's XML files, each bound to the size that a block declares.
 
-use std::io::Read;
-
-use flate2::read::ZlibDecoder;
+use flate2::{Decompress, FlushDecompress, Status};
 
 use super::xz;
 
@@ -33,34 +31,61 @@ impl Compressor {
             Self::Lzma => "LZMA",
         }
     }
+}
 
-    /// Appends one block's content to `out`. Never more than `size` bytes are written, and memory is taken as the content
-    /// comes, or after `size` was found to be within what the block can hold.
+/// Reads the blocks of one array, one after another.
+pub(super) struct Decompressor {
+    compressor: Compressor,
+    /// Kept from block to block: a file may have one for every few bytes, and its window alone takes 32 KiB.
+    zlib: Decompress,
+}
+
+/// Bytes that a byte of a zlib stream can stand for (RFC 1951: 258 bytes for two codes of one bit).
+const ZLIB_RATIO: usize = 1032;
+
+/// Bytes that a byte of LZ4 can stand for (LZ4 block format: lengths of 255 a byte).
+const LZ4_RATIO: usize = 255;
+
+impl Decompressor {
+    pub(super) fn new(compressor: Compressor) -> Self {
+        Self { compressor, zlib: Decompress::new(true) }
+    }
+
+    /// Appends one block's content to `out`. Never more than `size` bytes are written, and memory is taken after `size` was found to be
+    /// within what the block can hold.
     ///
     /// The error says what is wrong, for the caller to add the place.
-    pub(super) fn decompress(self, block: &[u8], size: usize, out: &mut Vec<u8>) -> Result<(), String> {
+    pub(super) fn decompress(&mut self, block: &[u8], size: usize, out: &mut Vec<u8>) -> Result<(), String> {
         let start = out.len();
-        match self {
-            Self::Zlib => {
-                // One byte more than declared: enough to see that a block inflates further, without following it.
-                let limit = u64::try_from(size).unwrap_or(u64::MAX).saturating_add(1);
-                ZlibDecoder::new(block)
-                    .take(limit)
-                    .read_to_end(out)
-                    .map_err(|e| format!("its zlib stream is damaged ({e})"))?;
+        let label = self.compressor.label();
+        let refuse_beyond = |ratio: usize| {
+            if size > block.len().saturating_add(1).saturating_mul(ratio) {
+                return Err(format!("{} bytes of {label} cannot hold the {size} bytes that are declared", block.len()));
             }
-            Self::Lz4 => {
-                // A byte of input stands for at most 255 bytes of output (LZ4 block format, lengths of 255 a byte).
-                const LARGEST_RATIO: usize = 255;
-                if size > block.len().saturating_mul(LARGEST_RATIO).saturating_add(LARGEST_RATIO) {
-                    return Err(format!("{} bytes of LZ4 cannot hold the {size} bytes that are declared", block.len()));
+            Ok(())
+        };
+        match self.compressor {
+            Compressor::Zlib => {
+                refuse_beyond(ZLIB_RATIO)?;
+                // One byte more than declared: enough to see that a block inflates further, without following it.
+                out.reserve(size + 1);
+                self.zlib.reset(true);
+                let status = self
+                    .zlib
+                    .decompress_vec(block, out, FlushDecompress::Finish)
+                    .map_err(|e| format!("its zlib stream is damaged ({e})"))?;
+                if status != Status::StreamEnd && out.len() - start <= size {
+                    return Err("its zlib stream is damaged (it ends early)".to_owned());
                 }
+            }
+            Compressor::Lz4 => {
+                refuse_beyond(LZ4_RATIO)?;
                 out.resize(start + size, 0);
                 let written = lz4_flex::block::decompress_into(block, &mut out[start..])
                     .map_err(|e| format!("its LZ4 block is damaged ({e})"))?;
                 out.truncate(start + written);
             }
-            Self::Lzma => xz::decompress(block, size, out)?,
+            Compressor::Lzma => xz::decompress(block, size, out)?,
         }
         let found = out.len() - start;
         if found > size {

@@ -13,6 +13,7 @@ use tetrascope_mesh::ArrayValues;
 
 use super::super::DAMAGED;
 use super::super::scalars::{ByteOrder, ScalarType};
+use super::compression::Decompressor;
 use super::xml::{Appended, ArrayElement, VtuFile, line, without_mark};
 use crate::{IoError, Source};
 
@@ -67,7 +68,7 @@ pub(super) fn decode(
             if text.is_empty() {
                 return Ok(scalar.decode_bytes(&[], file.byte_order));
             }
-            read_bytes(Encoded::Base64(text.as_bytes()), file).map(Cow::into_owned).map_err(invalid)?
+            read_bytes(Encoded::Base64(text.as_bytes()), file, scalar).map(Cow::into_owned).map_err(invalid)?
         }
         "appended" => {
             let appended = file.appended.ok_or_else(|| invalid("there is no appended data in the file".to_owned()))?;
@@ -84,7 +85,7 @@ pub(super) fn decode(
                 Appended::Raw(_) => Encoded::Raw(rest),
                 Appended::Base64(_) => Encoded::Base64(rest),
             };
-            let bytes = read_bytes(encoded, file).map_err(invalid)?;
+            let bytes = read_bytes(encoded, file, scalar).map_err(invalid)?;
             return whole_numbers(&bytes, scalar, file.byte_order).map_err(invalid);
         }
         other => {
@@ -159,7 +160,7 @@ fn too_short(needed: usize, there: usize) -> String {
 }
 
 /// The array's bytes in the file's byte order, without header and compression.
-fn read_bytes<'a>(mut encoded: Encoded<'a>, file: &VtuFile<'_>) -> Result<Cow<'a, [u8]>, String> {
+fn read_bytes<'a>(mut encoded: Encoded<'a>, file: &VtuFile<'_>, scalar: ScalarType) -> Result<Cow<'a, [u8]>, String> {
     let size = file.header_size;
     let word = |bytes: &[u8]| -> Result<usize, String> {
         let mut wide = [0_u8; 8];
@@ -180,10 +181,12 @@ fn read_bytes<'a>(mut encoded: Encoded<'a>, file: &VtuFile<'_>) -> Result<Cow<'a
     let Some(compressor) = file.compressor else {
         if encoded.is_apart(size) {
             encoded.take(size)?;
-            return encoded.take(first);
+            let bytes = encoded.take(first)?;
+            return file.spend(first / scalar.size()).map(|()| bytes);
         }
         let total = first.checked_add(size).ok_or_else(|| format!("{first} bytes are declared"))?;
         let mut bytes = encoded.take(total)?.into_owned();
+        file.spend(first / scalar.size())?;
         bytes.drain(..size);
         return Ok(Cow::Owned(bytes));
     };
@@ -206,13 +209,15 @@ fn read_bytes<'a>(mut encoded: Encoded<'a>, file: &VtuFile<'_>) -> Result<Cow<'a
         .try_fold(0_usize, |sum, &n| sum.checked_add(n))
         .ok_or("the sizes of its compressed blocks overflow")?;
     let blocks = encoded.take(total)?;
+    let declared_of = |number: usize| if number + 1 == stored.len() && last_size != 0 { last_size } else { block_size };
+    let inflated = (stored.len() - 1).saturating_mul(block_size).saturating_add(declared_of(stored.len() - 1));
+    file.spend(inflated / scalar.size())?;
+    let mut decompressor = Decompressor::new(compressor);
     let mut out = Vec::new();
     let mut at = 0;
     for (number, &length) in stored.iter().enumerate() {
-        let is_partial = number + 1 == stored.len() && last_size != 0;
-        let declared = if is_partial { last_size } else { block_size };
-        compressor
-            .decompress(&blocks[at..at + length], declared, &mut out)
+        decompressor
+            .decompress(&blocks[at..at + length], declared_of(number), &mut out)
             .map_err(|e| format!("compressed block {number} of {block_count}: {e}"))?;
         at += length;
     }

@@ -1,6 +1,6 @@
 //! From the arrays of all pieces to one dataset.
 
-use std::collections::HashSet;
+use std::collections::{HashMap, HashSet};
 
 use glam::DVec3;
 use tetrascope_mesh::{Cells, DataArray, Dataset};
@@ -98,21 +98,18 @@ fn read_points(source: &Source, file: &VtuFile<'_>, piece: &Piece<'_>) -> Result
 }
 
 /// One of the index arrays of `Cells`; nothing where the piece does not have it.
-fn indices(
-    source: &Source,
-    file: &VtuFile<'_>,
-    piece: &Piece<'_>,
-    name: &str,
-) -> Result<Option<(Vec<i64>, String)>, IoError> {
-    let Some(array) = piece.cells.iter().find(|array| array.name.eq_ignore_ascii_case(name)) else {
-        return Ok(None);
-    };
+fn indices(source: &Source, file: &VtuFile<'_>, piece: &Piece<'_>, name: &str) -> Result<Option<Vec<i64>>, IoError> {
+    let Some(array) = index_array(piece, name) else { return Ok(None) };
     let invalid = |problem: String| source.invalid(place(source, array, name), problem, DAMAGED);
     let scalar = scalar_type(&array.type_name)
         .ok_or_else(|| invalid(format!("the type \"{}\" is no type of numbers", array.type_name)))?;
     let values = to_indices(&decode(source, file, array, scalar, name)?)
         .ok_or_else(|| invalid(format!("indices cannot be of the type {}", array.type_name)))?;
-    Ok(Some((values, place(source, array, name))))
+    Ok(Some(values))
+}
+
+fn index_array<'p, 'a>(piece: &'p Piece<'a>, name: &str) -> Option<&'p ArrayElement<'a>> {
+    piece.cells.iter().find(|array| array.name.eq_ignore_ascii_case(name))
 }
 
 /// The faces of polyhedra in either of the two layouts that there are.
@@ -141,7 +138,7 @@ const CELLS_SHARING_A_FACE: usize = 4;
 
 impl FaceArrays {
     fn read(source: &Source, file: &VtuFile<'_>, piece: &Piece<'_>) -> Result<Self, IoError> {
-        let get = |name: &str| Ok(indices(source, file, piece, name)?.map(|(values, _)| values));
+        let get = |name: &str| indices(source, file, piece, name);
         if let (Some(points), Some(face_ends), Some(cell_faces), Some(cell_ends)) =
             (get("face_connectivity")?, get("face_offsets")?, get("polyhedron_to_faces")?, get("polyhedron_offsets")?)
         {
@@ -212,18 +209,19 @@ fn read_cells(
 ) -> Result<(), IoError> {
     let required = |name: &str| match indices(source, file, piece, name)? {
         Some(found) => Ok(found),
-        None if piece.cell_count == 0 => Ok((Vec::new(), String::new())),
+        None if piece.cell_count == 0 => Ok(Vec::new()),
         None => {
             let problem = format!("the array `{name}` is missing, though {} cells are declared", piece.cell_count);
             Err(source.invalid("element Cells", problem, DAMAGED))
         }
     };
-    let (connectivity, _) = required("connectivity")?;
-    let (ends, ends_place) = required("offsets")?;
-    let (types, types_place) = required("types")?;
-    for (values, place) in [(&ends, ends_place), (&types, types_place)] {
+    let connectivity = required("connectivity")?;
+    let (ends, types) = (required("offsets")?, required("types")?);
+    for (values, name) in [(&ends, "offsets"), (&types, "types")] {
         if u64::try_from(values.len()) != Ok(piece.cell_count) {
             let problem = format!("it has {} values, where {} were expected", values.len(), piece.cell_count);
+            // Found only here: counting the lines of the whole file for every piece takes time with the square of their number.
+            let place = index_array(piece, name).map_or_else(|| name.to_owned(), |array| place(source, array, name));
             return Err(source.invalid(place, problem, DAMAGED));
         }
     }
@@ -288,16 +286,18 @@ impl Joined {
             check_length(source, element, &label, values.len(), tuples, components, &plural)?;
             named.add(owner, &element.name, components, values, warnings);
         }
-        let mut own: Vec<_> = named.into_arrays().into_iter().map(Some).collect();
         if !self.any_piece {
             self.any_piece = true;
-            self.arrays = own.into_iter().flatten().collect();
+            self.arrays = named.into_arrays();
             return Ok(());
         }
+        let mut own: Vec<_> = named.into_arrays().into_iter().map(Some).collect();
+        let by_name: HashMap<String, usize> =
+            own.iter().flatten().enumerate().map(|(index, array)| (array.name.clone(), index)).collect();
         self.arrays.retain_mut(|all| {
-            let same = own.iter_mut().find(|array| array.as_ref().is_some_and(|array| array.name == all.name));
-            let joined = same
-                .and_then(Option::take)
+            let joined = by_name
+                .get(&all.name)
+                .and_then(|&index| own[index].take())
                 .is_some_and(|array| array.components == all.components && append(&mut all.values, array.values));
             if !joined {
                 warnings.push(format!(

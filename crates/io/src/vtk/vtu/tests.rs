@@ -7,6 +7,7 @@ use base64::engine::general_purpose::STANDARD;
 use tetrascope_mesh::CellKind;
 
 use super::super::test_support::{assert_same, bits, cells, read, sanity_check};
+use super::compression::{Compressor, Decompressor};
 use crate::{IoError, Loaded};
 
 fn good(file: &str) -> Loaded {
@@ -317,29 +318,33 @@ fn vtu_errors_name_array_and_value() {
     }
 }
 
+fn inflate(compressor: Compressor, block: &[u8], size: usize, out: &mut Vec<u8>) -> Result<(), String> {
+    Decompressor::new(compressor).decompress(block, size, out)
+}
+
 #[test]
 fn vtu_blocks_may_not_inflate_past_their_size() {
     let mut encoder = flate2::write::ZlibEncoder::new(Vec::new(), flate2::Compression::best());
     encoder.write_all(&vec![0; 1 << 24]).unwrap();
     let bomb = encoder.finish().unwrap();
     let mut out = Vec::new();
-    let error = super::compression::Compressor::Zlib.decompress(&bomb, 20, &mut out).unwrap_err();
+    let error = inflate(Compressor::Zlib, &bomb, 20, &mut out).unwrap_err();
     assert!(error.contains("more than the 20 bytes"), "{error}");
     // Memory was taken for what is allowed, not for what the stream holds.
     assert!(out.is_empty() && out.capacity() < 1 << 16, "{}", out.capacity());
-    let lz4 = super::compression::Compressor::Lz4.decompress(&[0; 10], 1 << 40, &mut out).unwrap_err();
+    let lz4 = inflate(Compressor::Lz4, &[0; 10], 1 << 40, &mut out).unwrap_err();
     assert!(lz4.contains("cannot hold"), "{lz4}");
     let mut xz = Vec::new();
     lzma_rs::xz_compress(&mut &[7_u8; 1000][..], &mut xz).unwrap();
-    let lzma = super::compression::Compressor::Lzma;
-    assert!(lzma.decompress(&xz, 999, &mut out).unwrap_err().contains("1000 bytes"));
-    lzma.decompress(&xz, 1000, &mut out).unwrap();
+    let lzma = Compressor::Lzma;
+    assert!(inflate(lzma, &xz, 999, &mut out).unwrap_err().contains("1000 bytes"));
+    inflate(lzma, &xz, 1000, &mut out).unwrap();
     assert_eq!(out, [7; 1000]);
     for cut in 0..xz.len() {
         // Cut within the chunks it must fail; the checksums behind them are not needed.
-        let _ = lzma.decompress(&xz[..cut], 1000, &mut Vec::new());
+        let _ = inflate(lzma, &xz[..cut], 1000, &mut Vec::new());
     }
-    assert!(lzma.decompress(&xz[..xz.len() / 2], 1000, &mut out).is_err());
+    assert!(inflate(lzma, &xz[..xz.len() / 2], 1000, &mut out).is_err());
 }
 
 #[test]
@@ -372,19 +377,40 @@ fn vtu_more_points_than_32_bits_count_is_unsupported() {
 
 /// Runs all compressors on a block, as it is and behind the headers of an xz container.
 pub(in crate::vtk) fn decompress_with_all(block: &[u8], size: usize) {
-    use super::compression::Compressor;
     let header = *b"\xfd7zXZ\0\0\x01\0\0\0\0\x02\0\x21\x01\x16\0\0\0\0\0\0\0";
     let container = [&header[..], &[0xe0, 0, 99, 0, 40, 0x5d], block].concat();
     for (compressor, block) in
         [(Compressor::Zlib, block), (Compressor::Lz4, block), (Compressor::Lzma, block), (Compressor::Lzma, &container)]
     {
         let mut out = Vec::new();
-        if compressor.decompress(block, size, &mut out).is_ok() {
+        if inflate(compressor, block, size, &mut out).is_ok() {
             assert_eq!(out.len(), size);
         }
     }
     // The same with the size and length that the chunk declares, so that the decoder itself is reached.
     let mut chunk = block.to_vec();
     chunk.resize(41, 0);
-    let _ = Compressor::Lzma.decompress(&[&container[..30], &chunk, &[0]].concat(), 100, &mut Vec::new());
+    let _ = inflate(Compressor::Lzma, &[&container[..30], &chunk, &[0]].concat(), 100, &mut Vec::new());
+}
+
+/// The lines of the whole file were counted once for each index array of each piece, which took time with the square of their number.
+#[test]
+fn vtu_many_pieces_are_not_looked_through_again_and_again() {
+    super::xml::LOOKED_THROUGH.set(0);
+    good(&file(&two_tets("", "").repeat(200)));
+    assert_eq!(super::xml::LOOKED_THROUGH.get(), 0);
+    let broken = file(&(two_tets("", "").repeat(200) + &two_tets("", "").replace("4 8", "4 8 8")));
+    assert!(message(&broken).contains("it has 3 values"));
+    let looked_through = super::xml::LOOKED_THROUGH.get();
+    assert!(looked_through > 0 && looked_through <= 2 * broken.len(), "{looked_through}");
+}
+
+/// Arrays that are compressed, or that share an offset, come to a stated number of numbers.
+#[test]
+fn vtu_arrays_have_a_limit_together() {
+    let source = crate::Source { path: "a.vtu".into(), bytes: ascii_file().into_bytes(), solution: None };
+    let parsed = super::xml::parse(&source).unwrap();
+    parsed.spend(1 << 20).unwrap();
+    let error = parsed.spend(1).unwrap_err();
+    assert!(error.contains("16 numbers a byte") && error.contains("limit"), "{error}");
 }

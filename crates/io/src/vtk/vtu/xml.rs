@@ -3,6 +3,8 @@
 //! Elements are pulled one after another and nothing recurses, so depth costs one byte a level. Entities other than the
 //! five predefined ones and character references are never expanded.
 
+use std::cell::Cell;
+
 use quick_xml::XmlVersion;
 use quick_xml::events::{BytesStart, Event};
 use quick_xml::reader::Reader;
@@ -27,7 +29,17 @@ pub(super) struct VtuFile<'a> {
     pub(super) pieces: Vec<Piece<'a>>,
     /// The section behind the XML that arrays of the format `appended` point into.
     pub(super) appended: Option<Appended<'a>>,
+    /// How many numbers may still be decoded; see [`NUMBERS_PER_BYTE`].
+    numbers_left: Cell<usize>,
 }
+
+/// Numbers that all arrays of a file together may come to, a byte of the file. Without compression a byte is one number at most, as text or
+/// as bytes; what is more is compressed, or is named by several arrays at one offset. The real meshes of the tests, whose indices and coordinates differ,
+/// stay below 1. Without the bound, 100 kB of arrays that share an offset, or of zeros that were compressed, are gigabytes.
+const NUMBERS_PER_BYTE: usize = 16;
+
+/// Numbers that are decoded whatever the file's length is: 8 MiB of the widest type.
+const NUMBERS_ALWAYS: usize = 1 << 20;
 
 /// One `Piece` element.
 #[derive(Debug, Default)]
@@ -77,6 +89,20 @@ enum Open {
     Other,
 }
 
+impl VtuFile<'_> {
+    /// Takes so many numbers from what the file may come to. The error says what the limit is, for the caller to add the place.
+    pub(super) fn spend(&self, numbers: usize) -> Result<(), String> {
+        let left = self.numbers_left.get().checked_sub(numbers).ok_or_else(|| {
+            format!(
+                "with its {numbers} numbers the arrays come to more than {NUMBERS_PER_BYTE} numbers a byte of the file \
+                 (and to more than {NUMBERS_ALWAYS}), which is the limit; if the file is whole, save it without compression"
+            )
+        })?;
+        self.numbers_left.set(left);
+        Ok(())
+    }
+}
+
 /// The bytes without a byte-order mark of UTF-8.
 pub(super) fn without_mark(bytes: &[u8]) -> &[u8] {
     bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes)
@@ -95,6 +121,7 @@ pub(super) fn parse(source: &Source) -> Result<VtuFile<'_>, IoError> {
         compressor: None,
         pieces: Vec::new(),
         appended: None,
+        numbers_left: Cell::new(bytes.len().saturating_mul(NUMBERS_PER_BYTE).max(NUMBERS_ALWAYS)),
     };
     let mut open: Vec<Open> = Vec::new();
     let mut root_seen = false;
@@ -196,8 +223,16 @@ fn position(reader: &Reader<&[u8]>) -> usize {
     usize::try_from(reader.buffer_position()).unwrap_or(usize::MAX)
 }
 
-/// A place in words: the line, counted from 1.
+#[cfg(test)]
+thread_local! {
+    /// Bytes that were looked through for the numbers of lines.
+    pub(super) static LOOKED_THROUGH: Cell<usize> = const { Cell::new(0) };
+}
+
+/// A place in words: the line, counted from 1. It looks through all that is before, so that it is for errors alone.
 pub(super) fn line(bytes: &[u8], at: usize) -> String {
+    #[cfg(test)]
+    LOOKED_THROUGH.set(LOOKED_THROUGH.get() + at);
     let before = &bytes[..at.min(bytes.len())];
     format!("line {}", 1 + before.iter().filter(|&&byte| byte == b'\n').count())
 }
