@@ -2,8 +2,8 @@
 //!
 //! Nothing is approximated but by rounding: segments come from clipping the ray against the four half-spaces of a cell,
 //! each is cut where it meets an isosurface, what is between is integrated as the plan says, and the fragments of a pixel are
-//! sorted by where the ray enters, so that no order of whole cells is needed and cycles are drawn rightly. Cells that overlap
-//! in space are composed one after the other, as if the nearer one ended first.
+//! sorted along the ray, so that no order of whole cells is needed and cycles are drawn rightly. Cells that overlap
+//! in space are composed one after the other, the one whose middle is nearer first.
 
 mod light;
 pub(crate) mod ray;
@@ -77,9 +77,11 @@ struct Job<'a> {
     crossings: AtomicU64,
 }
 
-/// By where the ray enters; of two that begin together the one that ends first.
+/// By the middles of what the ray has in each, as the other renderers sort pixels: that is the order of entry unless cells overlap. Of two with
+/// one middle the one that begins first.
 pub(crate) fn nearer_first(a: &Fragment, b: &Fragment) -> std::cmp::Ordering {
-    a.depth[0].total_cmp(&b.depth[0]).then(a.depth[1].total_cmp(&b.depth[1]))
+    let middle = |fragment: &Fragment| fragment.depth[0] * 0.5 + fragment.depth[1] * 0.5;
+    middle(a).total_cmp(&middle(b)).then(a.depth[0].total_cmp(&b.depth[0]))
 }
 
 /// The plan's integration along rays, its table over the mesh's scalars and lengths.

@@ -77,11 +77,18 @@ impl VolumeField<'_> {
             "nothing depends on the order".clone_into(&mut worth.summary);
             return worth;
         }
+        let (cells, visibility) = (self.cells(), self.visibility());
         if plan.backend == Backend::Reference {
-            "exact: sorted along every ray".clone_into(&mut worth.summary);
+            // It needs to know nothing of the mesh; to look costs next to nothing beside its picture.
+            let overlaps = visibility.overlaps(cells);
+            worth.summary = if overlaps.any() {
+                worth.warnings.push(overlapping(&overlaps));
+                "sorted along every ray, exact but where tetrahedra overlap".to_owned()
+            } else {
+                "exact: sorted along every ray".to_owned()
+            };
             return worth;
         }
-        let (cells, visibility) = (self.cells(), self.visibility());
         let across_gaps = "; the mesh is not convex, and across its gaps the order is a guess";
         worth.summary = match plan.order {
             OrderMethod::PerPixel if visibility.known_overlaps().is_some_and(|overlaps| overlaps.any()) => {

@@ -10,6 +10,8 @@ use tetrascope::{Camera, CameraSection, Projection, ProjectionName, SceneFile, V
 
 use crate::ways::Way;
 
+use crate::chords::boundary_faces;
+
 /// A section of the document.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[expect(missing_docs, reason = "the names are the sections")]
@@ -83,7 +85,12 @@ impl fmt::Debug for Truth {
 impl HardScene {
     /// A scene whose cells fill their boundary, which is taken from the mesh itself, with the usual limits.
     pub fn partition(place: impl Into<String>, volume: Volume, scene: SceneFile) -> Self {
-        let outline = crate::chords::boundary(&volume.decomposition.mesh);
+        // The points as they were given: those of a mesh are relative to its frame, and rounded on their way back.
+        let points = &volume.dataset.points;
+        let outline = boundary_faces(&volume.decomposition.mesh)
+            .into_iter()
+            .map(|face| face.map(|point| points[point as usize]))
+            .collect();
         Self::new(place, volume, scene, Truth::Outline(outline))
     }
 
