@@ -92,7 +92,7 @@ fn work_on_vtu_grows_with_the_file() {
     check("long-name.vtu", 50_000, |n| vtu(&tetrahedra(&array(&"x".repeat(n)).repeat(2), 1)));
     check("long-word.vtu", 50_000, |n| vtu(&tetrahedra("", 1).replacen("0 1 2 3 ", &"9".repeat(n), 1)));
     let polyhedra = |n: usize| {
-        let faces = format!("4 3 0 1 2 3 0 1 3 3 1 2 3 3 0 2 3 ").repeat(n);
+        let faces = "4 3 0 1 2 3 0 1 3 3 1 2 3 3 0 2 3 ".repeat(n);
         let ends = many(n, |i| format!("{} ", 17 * (i + 1)));
         let more = format!(
             "<DataArray type=\"UInt8\" Name=\"types\">{}</DataArray><DataArray type=\"Int64\" Name=\"faces\">{faces}</DataArray>\
