@@ -7,6 +7,7 @@ mod ci;
 mod figures;
 mod fuzz;
 mod golden;
+mod hard_cases;
 mod peers;
 mod soak;
 mod tidy;
@@ -34,6 +35,8 @@ enum Task {
     Accuracy(accuracy::Args),
     /// The pictures of docs/gallery.md
     Figures(figures::Args),
+    /// The pictures and figures of docs/hard-cases.md
+    HardCases(hard_cases::Args),
     /// Hard cases and known faults drawn by VTK, beside our pictures of them
     Peers(peers::Args),
     /// Random scenes in every way, compared with one another; what fails is reduced and written
@@ -50,6 +53,7 @@ fn main() -> ExitCode {
         Task::Bench(args) => bench::run(&args),
         Task::Accuracy(args) => accuracy::run(&args),
         Task::Figures(args) => figures::run(&args),
+        Task::HardCases(args) => hard_cases::run(&args),
         Task::Peers(args) => peers::run(&args),
         Task::Soak(args) => soak::run(&args),
         Task::Fuzz(args) => fuzz::run(&args),

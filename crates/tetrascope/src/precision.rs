@@ -10,6 +10,9 @@ use crate::VolumeField;
 /// Layers of cells, on average over all pixels, from which on blending into 16 bits is worth a word: it is off by some 3e-3 there.
 const DEEP: f64 = 100.0;
 
+/// Height of the picture, relative to about the size of the mesh, below which a GPU's coordinates are seen to be steps.
+const CLOSE: f64 = 1e-2;
+
 /// Height of a tetrahedron, relative to about the size of the mesh, from which on a GPU's coordinates hold it: some 60 of their steps.
 const THIN: f64 = 1e-7;
 
@@ -41,6 +44,13 @@ impl VolumeField<'_> {
                 ));
             }
         }
+        if plan.backend == Backend::Gpu && self.share_in_picture(plan) < CLOSE {
+            warnings.push(
+                "the picture shows less than a hundredth of the mesh, which is held in steps of 2e-9 of its size on a GPU, and small errors are magnified; \
+                 the back end \"cpu\" is right"
+                    .to_owned(),
+            );
+        }
         if plan.backend == Backend::Gpu && plan.gpu.target_bits == Some(TargetBits::Sixteen) {
             let layers = self.work(plan).map_or(0.0, |work| work.fragments.estimate)
                 / (f64::from(plan.view.width) * f64::from(plan.view.height));
@@ -54,13 +64,22 @@ impl VolumeField<'_> {
         warnings
     }
 
+    /// How high the picture is at the middle of the mesh, relative to about the size of that; not small with the eye within the mesh.
+    fn share_in_picture(&self, plan: &Plan) -> f64 {
+        let frame = self.mesh().frame();
+        let distance = plan.view.eye.distance(frame.origin) / frame.scale;
+        let depth = if plan.view.is_perspective { distance.max(1.0) } else { 1.0 / frame.scale };
+        2.0 * plan.view.half_height * depth
+    }
+
     /// Tetrahedra whose least height is below [`THIN`].
     fn cells_thinner_than_the_lattice(&self) -> usize {
         let mesh = self.mesh();
         let is_thin = |corners: &&[tetrascope_mesh::VertexId; 4]| {
             let [a, b, c, d] = corners.map(|v| mesh.positions()[v.index()]);
             let twice_area = |p: DVec3, q: DVec3, r: DVec3| (q - p).cross(r - p).length();
-            let largest = twice_area(a, b, c).max(twice_area(a, b, d)).max(twice_area(a, c, d)).max(twice_area(b, c, d));
+            let largest =
+                twice_area(a, b, c).max(twice_area(a, b, d)).max(twice_area(a, c, d)).max(twice_area(b, c, d));
             (b - a).cross(c - a).dot(d - a).abs() < THIN * largest
         };
         mesh.tetrahedra().par_iter().filter(|corners| is_thin(corners)).count()

@@ -8,7 +8,8 @@ mod optics;
 mod order;
 mod pixels;
 
-use tetrascope_tests::hard::{HardCase, judge, named};
+use tetrascope_tests::hard::document::beginning;
+use tetrascope_tests::hard::{HardCase, all, judge, named};
 use tetrascope_tests::ways::Way;
 
 /// Draws every scene of a case in every way, prints the largest of each figure, and fails with all that is wrong.
@@ -32,4 +33,15 @@ fn check(name: &str) {
         }
     }
     assert!(failures.is_empty(), "{name}: {failures:#?}");
+}
+
+/// The document has every case, word for word, and its picture; `cargo xtask hard-cases` writes both.
+#[test]
+fn hard_cases_are_in_the_document() {
+    let docs = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../docs");
+    let text = std::fs::read_to_string(docs.join("hard-cases.md")).unwrap();
+    for case in all() {
+        assert!(text.contains(&beginning(&case)), "docs/hard-cases.md has another text of {}", case.name);
+        assert!(docs.join(format!("images/hard/{}.png", case.name)).is_file(), "{} has no picture", case.name);
+    }
 }

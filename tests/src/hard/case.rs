@@ -8,9 +8,9 @@ use tetrascope::mesh::{ArrayValues, CellKind, Cells, DataArray, Dataset, Unstruc
 use tetrascope::view::Ray;
 use tetrascope::{Camera, CameraSection, Projection, ProjectionName, SceneFile, Volume};
 
-use crate::ways::Way;
-
+use super::judge::{CHORD_LIMITS, CRACK_LIMITS};
 use crate::chords::boundary_faces;
+use crate::ways::Way;
 
 /// A section of the document.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -32,6 +32,8 @@ pub struct HardCase {
     pub name: &'static str,
     /// Where in the document.
     pub group: Group,
+    /// What is hard, why the textbook method fails, what is done here: a paragraph of the document.
+    pub text: &'static str,
     /// Makes its scenes. The first one is drawn for the document and given to other renderers.
     pub scenes: fn() -> Vec<HardScene>,
 }
@@ -51,10 +53,30 @@ pub struct HardScene {
     pub within: f64,
     /// The same for a GPU: its f32 has no f64 beside it.
     pub within_gpu: f64,
-    /// Why a GPU cannot hold this scene: its pictures must be sound, but its figures are told and not judged.
-    pub beyond_gpu: Option<&'static str>,
+    /// What chords may differ by, of themselves: on the CPU, on a GPU.
+    pub chord_within: [f64; 2],
+    /// What opacity may differ by from its neighbors' plane, likewise.
+    pub crack_within: [f64; 2],
+    /// Who cannot hold this scene, if anybody.
+    pub beyond: Option<Beyond>,
     /// Words that the user must be told, where a limit is reached.
     pub says: Option<&'static str>,
+}
+
+/// Ways that cannot hold a scene: their pictures must be sound, and the user must be told; their figures are told and not judged.
+#[derive(Clone, Copy, Debug)]
+pub struct Beyond {
+    /// Those.
+    pub ways: &'static [Way],
+    /// Words of the warning.
+    pub words: &'static str,
+}
+
+impl Beyond {
+    /// Both ways of a GPU.
+    pub const fn gpu(words: &'static str) -> Self {
+        Self { ways: &[Way::Compute, Way::Triangles], words }
+    }
 }
 
 /// The light of a ray: linear R, G, B times opacity, opacity. `None` where a ray runs along an edge.
@@ -103,7 +125,9 @@ impl HardScene {
             truth,
             within: 1e-5,
             within_gpu: 2e-5,
-            beyond_gpu: None,
+            chord_within: CHORD_LIMITS,
+            crack_within: CRACK_LIMITS,
+            beyond: None,
             says: None,
         }
     }
@@ -111,8 +135,8 @@ impl HardScene {
 
 impl HardScene {
     /// Whether the figures of a way are held to limits.
-    pub(super) fn judges(&self, way: Way) -> bool {
-        !(way.needs_gpu() && self.beyond_gpu.is_some())
+    pub fn is_judged(&self, way: Way) -> bool {
+        self.beyond.is_none_or(|beyond| !beyond.ways.contains(&way))
     }
 }
 

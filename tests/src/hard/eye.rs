@@ -10,17 +10,77 @@ use crate::meshes::Tets;
 
 /// The cases of this group.
 pub(super) fn cases() -> Vec<HardCase> {
-    let case = |name, scenes| HardCase { name, group: Group::Eye, scenes };
+    let case = |name, text, scenes| HardCase { name, group: Group::Eye, text, scenes };
     vec![
-        case("eye-in-the-plane-of-a-face", in_the_plane_of_a_face),
-        case("eye-on-an-edge", on_an_edge),
-        case("eye-on-a-vertex", on_a_vertex),
-        case("eye-in-a-cell", in_a_cell),
-        case("eye-near-a-face", near_a_face),
-        case("cells-across-the-plane-of-the-eye", across_the_plane_of_the_eye),
-        case("angle-of-one-degree", angle_of_one_degree),
-        case("angle-of-170-degrees", angle_of_170_degrees),
-        case("parallel-as-the-limit-of-perspective", parallel_as_the_limit),
+        case(
+            "eye-in-the-plane-of-a-face",
+            "The eye lies on a face of the mesh, inside or on the boundary, or beside it in its plane: the face's signed volume is \
+             zero but for rounding, and rays run in the face. Neither cell of it may then be drawn, or both. Here a ray that runs \
+             in a face belongs to the one cell that it would enter if moved a little to the right and, by far less, down; both \
+             cells decide from the same bits. Cells near the eye are drawn in f64 on the CPU, in integers on a GPU.",
+            in_the_plane_of_a_face,
+        ),
+        case(
+            "eye-on-an-edge",
+            "The eye lies on an edge, and looks into the mesh or along the edge. All cells about the edge contain the eye and none \
+             of them has a silhouette; a fan of triangles on the screen does not exist for them. The planes of their faces do: each \
+             ray begins at a depth of 0 and ends at the first face that it leaves through. Along the edge exactly one of the cells \
+             has the ray.",
+            on_an_edge,
+        ),
+        case(
+            "eye-on-a-vertex",
+            "The eye lies on a vertex: three faces of every cell about it pass through the eye, and their projections are lines \
+             through everything. Here no corner is projected where the eye is near: nearness, the inverse of depth, would be \
+             infinite, so that such cells are clipped ray by ray instead.",
+            on_a_vertex,
+        ),
+        case(
+            "eye-in-a-cell",
+            "The eye is inside a cell, in its middle or a thousandth from a corner. No entry of the table is meant for that cell: \
+             all its faces face away, and the picture is missing it in programs that skip what they cannot classify. It is a class \
+             of its own here, and its rays begin at the eye.",
+            in_a_cell,
+        ),
+        case(
+            "eye-near-a-face",
+            "The eye is 1e-7 of the mesh's size before or behind a face, inside and on the boundary. Depths of one cell go from \
+             1e-7 to 1, and with f32 positions the eye lands on the wrong side. Here the side is decided in f64 on the CPU; on a \
+             GPU the mesh's coordinates are integers of 2^-29 of its size, so that 1e-7 is fifty steps, and rays of cells that near \
+             are tried against their corners in integers.",
+            near_a_face,
+        ),
+        case(
+            "cells-across-the-plane-of-the-eye",
+            "Cells have corners before and behind the eye, and some exactly at a depth of zero: dividing by depth turns what is \
+             behind inside out. A near plane cuts a slice away. Here nothing is cut away: such cells are bounded by the picture and \
+             clipped by their faces ray by ray, at depths from 0 on. Parallel rays begin in the plane of the eye as well, and what \
+             lies behind it is not seen.",
+            across_the_plane_of_the_eye,
+        ),
+        case(
+            "angle-of-one-degree",
+            "An angle of one degree, from 175 sizes away and from inside. Rays are nearly parallel, and depths differ in their last \
+             digits: in f32 a difference of two depths at a distance of 175 loses two digits more than at 1. Here depths within a \
+             cell are relative to a point in that cell.",
+            angle_of_one_degree,
+        ),
+        case(
+            "angle-of-170-degrees",
+            "An angle of 170 degrees, from inside and from outside: slopes reach 11, chords are up to 11 times as long as their \
+             depth, and many cells lie across the plane of the eye. What is linear along the screen in a parallel view is not here: \
+             interpolated lengths are off by as much as they vary. Chords follow from nearness, which is linear on the screen at \
+             any angle, and from the length of each pixel's own ray.",
+            angle_of_170_degrees,
+        ),
+        case(
+            "parallel-as-the-limit-of-perspective",
+            "The eye moves away from 10 to 1e8 while the angle of view shrinks: the pictures must become the parallel one. Two \
+             programs for two projections often meet at different pixels, and distances of 1e8 leave no digits to f32 depths. The \
+             mean difference from the parallel picture is 0.25 to 0.27 divided by the distance in all four ways up to 1e6, and from \
+             1e7 on what rounding leaves, 5e-9 in the reference and 2e-8 to 4e-8 in f32.",
+            parallel_as_the_limit,
+        ),
     ]
 }
 
@@ -86,10 +146,6 @@ fn mean(points: &[DVec3]) -> DVec3 {
     points.iter().sum::<DVec3>() / points.len() as f64
 }
 
-/// The eye lies on a face of the mesh, inside or on the boundary, or beside it in its plane: the face's signed volume is zero but for
-/// rounding, and rays run in the face. Neither cell of it may then be drawn, or both. Here a ray that runs in a face belongs to the one
-/// cell that it would enter if moved a little to the right and, by far less, down; both cells decide from the same bits. Cells near the
-/// eye are drawn in f64 on the CPU, in integers on a GPU.
 fn in_the_plane_of_a_face() -> Vec<HardScene> {
     let block = Block::new(7800);
     let [a, b, c, _] = block.inner;
@@ -108,9 +164,6 @@ fn in_the_plane_of_a_face() -> Vec<HardScene> {
     ]
 }
 
-/// The eye lies on an edge, and looks into the mesh or along the edge. All cells about the edge contain the eye and none of them has a
-/// silhouette; a fan of triangles on the screen does not exist for them. The planes of their faces do: each ray begins at a depth of 0
-/// and ends at the first face that it leaves through. Along the edge exactly one of the cells has the ray.
 fn on_an_edge() -> Vec<HardScene> {
     let block = Block::new(7810);
     let [a, b, ..] = block.inner;
@@ -122,9 +175,6 @@ fn on_an_edge() -> Vec<HardScene> {
     ]
 }
 
-/// The eye lies on a vertex: three faces of every cell about it pass through the eye, and their projections are lines through
-/// everything. Here no corner is projected where the eye is near: nearness, the inverse of depth, would be infinite, so that such cells
-/// are clipped ray by ray instead.
 fn on_a_vertex() -> Vec<HardScene> {
     let block = Block::new(7820);
     let [a, b, ..] = block.inner;
@@ -136,9 +186,6 @@ fn on_a_vertex() -> Vec<HardScene> {
     ]
 }
 
-/// The eye is inside a cell, in its middle or a thousandth from a corner. No entry of the table is meant for that cell: all its faces
-/// face away, and the picture is missing it in programs that skip what they cannot classify. It is a class of its own here, and its
-/// rays begin at the eye.
 fn in_a_cell() -> Vec<HardScene> {
     let block = Block::new(7830);
     let [a, b, ..] = block.inner;
@@ -146,9 +193,6 @@ fn in_a_cell() -> Vec<HardScene> {
     vec![block.inward("in the middle", middle), block.along("in a corner", a + 1e-3 * (middle - a), b - a)]
 }
 
-/// The eye is 1e-7 of the mesh's size before or behind a face, inside and on the boundary. Depths of one cell go from 1e-7 to 1, and
-/// with f32 positions the eye lands on the wrong side. Here the side is decided in f64 on the CPU; on a GPU the mesh's coordinates are
-/// integers of 2^-29 of its size, so that 1e-7 is fifty steps, and rays of cells that near are tried against their corners in integers.
 fn near_a_face() -> Vec<HardScene> {
     let block = Block::new(7840);
     let [a, b, c, _] = block.inner;
@@ -163,9 +207,6 @@ fn near_a_face() -> Vec<HardScene> {
     ]
 }
 
-/// Cells have corners before and behind the eye, and some exactly at a depth of zero: dividing by depth turns what is behind inside
-/// out. A near plane cuts a slice away. Here nothing is cut away: such cells are bounded by the picture and clipped by their faces ray
-/// by ray, at depths from 0 on. Parallel rays begin in the plane of the eye as well, and what lies behind it is not seen.
 fn across_the_plane_of_the_eye() -> Vec<HardScene> {
     let block = Block::new(7850);
     let up = DVec3::new(0.1, 1.0, 0.3);
@@ -190,9 +231,6 @@ fn across_the_plane_of_the_eye() -> Vec<HardScene> {
     scenes
 }
 
-/// An angle of one degree, from 175 sizes away and from inside. Rays are nearly parallel, and depths differ in their last digits: in
-/// f32 a difference of two depths at a distance of 175 loses two digits more than at 1. Here depths within a cell are relative to a
-/// point in that cell.
 fn angle_of_one_degree() -> Vec<HardScene> {
     let block = Block::new(7860);
     let towards = DVec3::new(0.5, 0.4, 1.0).normalize();
@@ -203,10 +241,6 @@ fn angle_of_one_degree() -> Vec<HardScene> {
     ]
 }
 
-/// An angle of 170 degrees, from inside and from outside: slopes reach 11, chords are up to 11 times as long as their depth, and many
-/// cells lie across the plane of the eye. What is linear along the screen in a parallel view is not here: interpolated lengths are off
-/// by as much as they vary. Chords follow from nearness, which is linear on the screen at any angle, and from the length of each
-/// pixel's own ray.
 fn angle_of_170_degrees() -> Vec<HardScene> {
     let block = Block::new(7870);
     let up = DVec3::new(0.1, 1.0, 0.2);
@@ -238,10 +272,6 @@ pub fn towards_parallel_scenes() -> (Volume, Vec<(f64, SceneFile)>) {
     (volume(&tets), scenes)
 }
 
-/// The eye moves away from 10 to 1e8 while the angle of view shrinks: the pictures must become the parallel one. Two programs for two
-/// projections often meet at different pixels, and distances of 1e8 leave no digits to f32 depths. The mean difference from the
-/// parallel picture is 0.25 to 0.27 divided by the distance in all four ways up to 1e6, and from 1e7 on what rounding leaves, 5e-9 in
-/// the reference and 2e-8 to 4e-8 in f32.
 fn parallel_as_the_limit() -> Vec<HardScene> {
     let (_, scenes) = towards_parallel_scenes();
     let hard = |(distance, scene): (f64, SceneFile)| {

@@ -1,5 +1,6 @@
 //! Draws a hard scene in every way and holds the pictures against what is known of it.
 
+use glam::DVec3;
 use tetrascope::{LinearImage, OpticalModel, SceneFile, View};
 
 use super::{HardScene, Truth};
@@ -8,13 +9,11 @@ use crate::ways::{Drawn, Way};
 
 /// What chords may differ by, relative to themselves, or to a tenth of the longest in the picture where they are shorter: at a silhouette a chord
 /// goes to 0, and its planes are known to f32 relative to the cell.
-pub const CHORD_LIMIT: f64 = 1e-5;
-/// The same on a GPU, which has no f64 for planes that are steep.
-pub const CHORD_LIMIT_GPU: f64 = 1e-4;
-/// What opacity may differ by from the plane of its neighbors.
-pub const CRACK_LIMIT: f64 = 1e-5;
-/// The same on a GPU.
-pub const CRACK_LIMIT_GPU: f64 = 2e-5;
+///
+/// On the CPU, and on a GPU, which has no f64 for planes that are steep.
+pub const CHORD_LIMITS: [f64; 2] = [1e-5, 1e-4];
+/// What opacity may differ by from the plane of its neighbors: on the CPU, and on a GPU.
+pub const CRACK_LIMITS: [f64; 2] = [1e-5, 2e-5];
 /// Share of the longest chord below which errors are relative to that.
 const SHORT: f64 = 0.1;
 /// Optical depth of the longest chord in the picture that is looked at for cracks: opacities are neither 0 nor 1.
@@ -68,7 +67,7 @@ impl Exact {
             image.pixels().iter().map(|p| Some(p.map(f64::from))).collect()
         };
         let (chords, light) = match &hard.truth {
-            Truth::Outline(triangles) => (Some(chords(triangles, &view)), by_reference()),
+            Truth::Outline(triangles) => (Some(chords_near_the_origin(hard, triangles)), by_reference()),
             Truth::Reference => (None, by_reference()),
             Truth::Light(light) => (None, rays().map(|ray| light(&ray)).collect()),
         };
@@ -77,9 +76,23 @@ impl Exact {
 }
 
 fn view_of(hard: &HardScene) -> View {
+    view_from(hard, DVec3::ZERO)
+}
+
+/// The view with the camera moved.
+fn view_from(hard: &HardScene, origin: DVec3) -> View {
     let field = hard.volume.field(hard.scene.mesh.field.as_deref()).expect("hard scenes have a field");
-    let scene = hard.scene.complete(&field.facts).expect("hard scenes are complete").scene;
+    let mut scene = hard.scene.complete(&field.facts).expect("hard scenes are complete").scene;
+    scene.camera.eye -= origin;
+    scene.camera.target -= origin;
     View::new(&scene.camera, scene.width, scene.height).expect("hard scenes have a good camera")
+}
+
+/// The true chords, found where numbers are small: parallel rays begin beside the eye, and far away that place has no digits for it.
+fn chords_near_the_origin(hard: &HardScene, triangles: &[[DVec3; 3]]) -> Vec<Option<f64>> {
+    let origin = hard.volume.decomposition.mesh.frame().origin;
+    let near: Vec<[DVec3; 3]> = triangles.iter().map(|triangle| triangle.map(|p| p - origin)).collect();
+    chords(&near, &view_from(hard, origin))
 }
 
 fn finding(hard: &HardScene, way: Way, exact: &Exact) -> Finding {
@@ -101,7 +114,7 @@ fn finding(hard: &HardScene, way: Way, exact: &Exact) -> Finding {
         }
     }
     found.light = worst.0;
-    if worst.0 > within && hard.judges(way) {
+    if worst.0 > within && hard.is_judged(way) {
         let [x, y] = [worst.1 % exact.width, worst.1 / exact.width];
         found.failures.push(format!("light is off by {:.2e} of {within:.0e} at ({x}, {y})", worst.0));
     }
@@ -136,10 +149,11 @@ pub fn is_sound(pixel: &[f32; 4]) -> bool {
 }
 
 fn check_words(hard: &HardScene, drawn: &Drawn, found: &mut Finding) {
-    if let Some(words) = hard.says
-        && !drawn.warnings.iter().any(|warning| warning.contains(words))
-    {
-        found.failures.push(format!("no warning has the words \"{words}\": {:?}", drawn.warnings));
+    let beyond = hard.beyond.filter(|beyond| beyond.ways.contains(&found.way)).map(|beyond| beyond.words);
+    for words in hard.says.into_iter().chain(beyond) {
+        if !drawn.warnings.iter().any(|warning| warning.contains(words)) {
+            found.failures.push(format!("no warning has the words \"{words}\": {:?}", drawn.warnings));
+        }
     }
 }
 
@@ -183,8 +197,8 @@ fn check_chords(hard: &HardScene, chords: &[Option<f64>], width: usize, found: &
     }
     found.chord = Some(chord_error.0);
     let [chord_limit, crack_limit] =
-        if found.way.needs_gpu() { [CHORD_LIMIT_GPU, CRACK_LIMIT_GPU] } else { [CHORD_LIMIT, CRACK_LIMIT] };
-    if chord_error.0.is_nan() || (chord_error.0 > chord_limit && hard.judges(found.way)) {
+        [hard.chord_within, hard.crack_within].map(|limits| limits[usize::from(found.way.needs_gpu())]);
+    if chord_error.0.is_nan() || (chord_error.0 > chord_limit && hard.is_judged(found.way)) {
         let [x, y] = [chord_error.1 % width, chord_error.1 / width];
         found.failures.push(format!("a chord is off by {:.2e} of itself at ({x}, {y})", chord_error.0));
     }
@@ -211,7 +225,7 @@ fn check_chords(hard: &HardScene, chords: &[Option<f64>], width: usize, found: &
         }
     }
     found.crack = Some(crack.0);
-    if crack.0 > crack_limit && hard.judges(found.way) {
+    if crack.0 > crack_limit && hard.is_judged(found.way) {
         let [x, y] = [crack.1 % width, crack.1 / width];
         found.failures.push(format!("opacity is {:.2e} from its neighbors' plane at ({x}, {y})", crack.0));
     }

@@ -5,6 +5,7 @@
 
 mod case;
 mod classification;
+pub mod document;
 mod eye;
 mod judge;
 mod mesh;
@@ -14,10 +15,10 @@ mod order;
 mod pixels;
 mod views;
 
-pub use case::{Group, HardCase, HardScene, Light, Truth, scene_of, volume_of};
+pub use case::{Beyond, Group, HardCase, HardScene, Light, Truth, scene_of, volume_of};
 pub use classification::{cells_of_the_table, impossible_cells};
 pub use eye::towards_parallel_scenes;
-pub use judge::{CHORD_LIMIT, CHORD_LIMIT_GPU, CRACK_LIMIT, CRACK_LIMIT_GPU, Finding, is_sound, judge};
+pub use judge::{CHORD_LIMITS, CRACK_LIMITS, Finding, is_sound, judge};
 
 /// All cases, in the order of the document.
 pub fn all() -> Vec<HardCase> {

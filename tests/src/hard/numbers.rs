@@ -8,12 +8,35 @@ use crate::meshes::Tets;
 
 /// The cases of this group.
 pub(super) fn cases() -> Vec<HardCase> {
-    let case = |name, scenes| HardCase { name, group: Group::Numbers, scenes };
+    let case = |name, text, scenes| HardCase { name, group: Group::Numbers, text, scenes };
     vec![
-        case("tiny-and-huge-coordinates", tiny_and_huge_coordinates),
-        case("detail-far-from-the-origin", detail_far_from_the_origin),
-        case("tiny-and-huge-scalars", tiny_and_huge_scalars),
-        case("small-variation-of-large-scalars", small_variation),
+        case(
+            "tiny-and-huge-coordinates",
+            "A mesh 1e-9 across, and 1e9, 1e-20, 1e20. Absolute tolerances swallow the one, squares and volumes overflow in the \
+             other. Here every mesh lives in a frame of its own in which it is about 1 across, lengths get their unit back in the \
+             optical depth, and no tolerance is absolute.",
+            tiny_and_huge_coordinates,
+        ),
+        case(
+            "detail-far-from-the-origin",
+            "Meters and millimeters at northing 5,000,000, and a cube of 1 at 1e9. In 32 bits such coordinates have steps of half a \
+             meter. Here differences to the frame's origin are taken in 64 bits before anything else, and a picture is as exact as \
+             the coordinates in the file are.",
+            detail_far_from_the_origin,
+        ),
+        case(
+            "tiny-and-huge-scalars",
+            "A field of 1e-30, of 1e30, and of numbers that 32 bits do not have at all, subnormal ones included. Here scalars are \
+             in a unit in which their range is between 1 and 2, by a power of two, which changes no digit.",
+            tiny_and_huge_scalars,
+        ),
+        case(
+            "small-variation-of-large-scalars",
+            "A pressure of 101,325 that varies by 1e-6, a field of 1e9 that varies by 1e-3: an interpolated value has lost what its \
+             corners differ by, in 64 bits too. Here scalars of such a field count from the lowest of them, of which the difference \
+             is exact, and so do transfer function and isosurfaces.",
+            small_variation,
+        ),
     ]
 }
 

@@ -23,6 +23,9 @@ const STEEP: f64 = 256.0;
 /// A cell whose nearest point is closer than this share of its farthest is drawn in f64: it reaches the plane of the eye, or nearly.
 const NEAR: f64 = 1e-2;
 
+/// A cell that reaches beyond this many pictures to any side is drawn in f64.
+const MAGNIFIED: f64 = 64.0;
+
 /// Cells that are fetched together before they are set up.
 const BATCH: usize = 32;
 
@@ -200,6 +203,20 @@ impl SetUp<'_> {
         }
     }
 
+    /// Whether a cell is so much larger than the picture that f32, relative to the cell, does not resolve what of it is seen.
+    #[inline(always)]
+    fn is_magnified(&self, cell: &Cell) -> bool {
+        let [width, height] = self.space.size;
+        let [x0, x1, y0, y1] = cell.outline.map(u32::from);
+        // Most cells lie in the picture as a whole.
+        if x0 > 0 && x1 + 1 < width && y0 > 0 && y1 + 1 < height {
+            return false;
+        }
+        let limit = MAGNIFIED * f64::from(width.max(height));
+        let is_far = |p: DVec3| p.x.abs().max(p.y.abs()) > if self.space.is_perspective { limit * p.z } else { limit };
+        cell.corners.into_iter().any(is_far)
+    }
+
     /// The record of a cell that f32 can draw; `None` if it cannot.
     #[inline(always)]
     fn record(&self, cell: &Cell) -> Option<CellRecord> {
@@ -208,6 +225,9 @@ impl SetUp<'_> {
         let nearest = a.z.min(b.z).min(c.z).min(d.z);
         let farthest = a.z.max(b.z).max(c.z).max(d.z);
         if nearest <= if is_perspective { NEAR * farthest } else { 0.0 } {
+            return None;
+        }
+        if self.is_magnified(cell) {
             return None;
         }
         // Outward normals, and what they make of the edge from the first corner.

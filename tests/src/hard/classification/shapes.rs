@@ -5,7 +5,7 @@ use std::sync::Arc;
 use glam::DVec3;
 use tetrascope::{Camera, Projection};
 
-use super::super::case::{HardScene, Truth, volume_of};
+use super::super::case::{Beyond, HardScene, Truth, volume_of};
 use super::super::views::{Pieces, down, lively, look, oriented, volume};
 use super::{RANGE, SPREAD, upright};
 use crate::meshes::{Random, Tets};
@@ -31,12 +31,12 @@ pub(super) fn alone(place: &str, corners: &[DVec3; 4], camera: &Camera, length: 
     let mut cell = Pieces::default();
     cell.add(corners, &[oriented(corners, [0, 1, 2, 3])], &SPREAD[..4]);
     let scene = HardScene::partition(place, cell.volume(), lively(camera, [40, 39], RANGE, length));
-    HardScene { beyond_gpu: Some(LATTICE), ..scene }
+    HardScene { beyond: Some(LATTICE), ..scene }
 }
 
 /// Coordinates on a GPU are integers: a step is 2^-29 of about the mesh's size. What is 1e-8 of the mesh thick is a few steps thick, and by as
 /// much as a share of itself it is drawn too thick or too thin where it stands alone. Beside neighbors, who share its corners, nothing shows.
-const LATTICE: &str = "a cell alone of a few lattice steps' thickness";
+const LATTICE: Beyond = Beyond::gpu("thinner than 1e-7 of the mesh");
 
 /// A parallel view across z from the side, y into the picture, as high as wide.
 fn from_the_side(target: DVec3, height: f64) -> Camera {
@@ -46,11 +46,6 @@ fn from_the_side(target: DVec3, height: f64) -> Camera {
 /// Height over edge of the thin cells.
 const THIN: f64 = 1e-8;
 
-/// Four corners near a circle, 1e-8 of its size apart: volumes are differences of nearly equal numbers, and gradients quotients of
-/// them. f32 planes of such a cell have no digits left. Cells whose planes are too steep for f32 are drawn in f64 on the CPU and in
-/// integers on a GPU, and scalars are kept within the range of the corners. A GPU's coordinates are integers of 2^-29 of about the
-/// mesh's size: between neighbors that costs nothing, as they share corners, but a sliver alone is a few steps thick and drawn too
-/// thick or too thin by as much as it is; the CPU draws it within 1e-5.
 pub(super) fn slivers() -> Vec<HardScene> {
     // Four corners near a circle, crosswise up and down.
     let corners = [[1., 0., THIN], [0., 1., -THIN], [-1., 0.1, THIN], [-0.1, -1., -THIN]].map(DVec3::from);
@@ -71,10 +66,6 @@ pub(super) fn slivers() -> Vec<HardScene> {
     scenes
 }
 
-/// A cell whose one side is 1e-8 of its length, seen from aside and along its axis. On the screen it is thinner than a pixel from most
-/// sides, and along the axis all its length lies in a region of 1e-8. Methods with snapped or rounded screen positions lose it there.
-/// Here its planes are relative to a point inside, and steep ones are kept in f64; on a GPU the needle alone is a few steps of its
-/// lattice thick, and between neighbors it is right.
 pub(super) fn needles() -> Vec<HardScene> {
     let corners = [[-1., 0., 0.], [1., THIN, 0.], [1., -0.5 * THIN, THIN], [1., -0.5 * THIN, -THIN]].map(DVec3::from);
     // Along its axis from the point, as near as it is thin.
@@ -91,10 +82,6 @@ pub(super) fn needles() -> Vec<HardScene> {
     ]
 }
 
-/// A corner 1e-8 above the middle of the opposite face: three faces lie nearly in the plane of the fourth, and seen flat the thick
-/// vertex has a chord of 1e-8. As a difference of two depths that chord has no digits in f32. Here it is a quotient of volumes of one
-/// sign, and per pixel a difference of nearnesses relative to a point in the cell. A cap alone on a GPU is as thick as its lattice has
-/// it.
 pub(super) fn caps() -> Vec<HardScene> {
     let corners = [[-1., -0.6, 0.], [1., -0.7, 0.], [0.1, 1., 0.], [0.05, -0.1, THIN]].map(DVec3::from);
     vec![
@@ -104,9 +91,6 @@ pub(super) fn caps() -> Vec<HardScene> {
     ]
 }
 
-/// A block is cut along its cells: every point of the cut is there twice, with flat cells between the two. Programs that find neighbors
-/// by point numbers see a boundary inside, and the flat cells divide by 0. Flat cells are left out with a warning that counts them, and
-/// the two sides are drawn like any boundary: their faces have the same coordinates, so that they neither overlap nor leave a gap.
 pub(super) fn coincident_points() -> Vec<HardScene> {
     let tets = Tets::block(3, 7400);
     let middle = |cell: &[u32; 4]| cell.iter().map(|&p| tets.points[p as usize].x).sum::<f64>() / 4.0;
@@ -158,9 +142,6 @@ pub(super) fn coincident_points() -> Vec<HardScene> {
         .to_vec()
 }
 
-/// Every second cell, or every cell, is given inside out, with a negative volume. A table of classes takes the front of such a cell for
-/// its back: light runs backwards or opacity is negative. Cells are turned round when the mesh is made, which the user is told, and the
-/// pictures are those of the upright mesh in every bit, in all four ways.
 pub(super) fn inverted_cells() -> Vec<HardScene> {
     let mut tets = Tets::block(3, 7500);
     tets.cells = tets.cells.iter().map(|&cell| oriented(&tets.points, cell)).collect();

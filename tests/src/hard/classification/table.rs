@@ -47,10 +47,6 @@ pub fn cells_of_the_table() -> Vec<(usize, [DVec3; 4])> {
         .collect()
 }
 
-/// One cell for each of the 50 entries of the table of 81 that points can have: 8 of class 1, 6 of class 2, 24 of class 3, 12 of class
-/// 4. The table is not typed in but generated from the signs, and a test holds it against a second generator, drawn shapes under all
-/// relabelings. A typed-in table with one wrong row shows in few pictures; here each row is one cell of the chart, held against its
-/// exact chords.
 pub(super) fn entries_of_the_table() -> Vec<HardScene> {
     let mut chart = Pieces::default();
     for (code, corners) in cells_of_the_table() {
@@ -83,11 +79,6 @@ pub fn impossible_cells() -> Vec<(usize, [DVec3; 4])> {
     found.into_iter().enumerate().filter_map(|(code, cell)| Some((code, cell?))).collect()
 }
 
-/// Cross products of four points add up to zero, so that 30 entries of the table cannot happen; rounding happens to them all where four
-/// corners lie nearly on a line. A program with nothing in those rows, or an assertion, draws rubbish or stops. In the table here they
-/// are an entry of their own that has no fan. Signs without rounding never give one, and cells whose rounded signs do cover less than
-/// 1e-15 of area. No back end asks the table: pixels are drawn by planes. The cells of this scene stand like hairs on a cube, one for
-/// each of the 30 entries.
 pub(super) fn impossible_entries() -> Vec<HardScene> {
     let mut stage = Pieces::default();
     let cube: [DVec3; 8] = std::array::from_fn(|i| {
@@ -105,11 +96,6 @@ pub(super) fn impossible_entries() -> Vec<HardScene> {
         .to_vec()
 }
 
-/// Two edges over one another at an angle from a tenth to 1e-12: the thick vertex is where they cross, and the textbook's intersection
-/// of two lines divides two numbers near zero. Here it is the mean of the front corners weighted by volumes of one sign; nothing
-/// cancels, and a test holds it to the ulp of the coordinates over the angle, which is what the data itself knows. Where the eye comes
-/// near a face, one of the two sums goes to zero: the chord is known as well as the eye's height over the face is, to 1e-9 of itself at
-/// 1e-7. A GPU's lattice ends at angles of about 1e-6, seen from as near as the silhouette is wide.
 pub(super) fn thick_vertex_between_parallel_edges() -> Vec<HardScene> {
     let angles = [1e-1, 1e-2, 1e-3, 1e-4, 1e-6, 1e-8, 1e-10, 1e-12];
     let cell = |at: DVec3, angle: f64| {
@@ -135,7 +121,7 @@ pub(super) fn thick_vertex_between_parallel_edges() -> Vec<HardScene> {
         let place = format!("an angle of {angle:e}, near{words}");
         let near = alone(&place, &cell(PLACE, angle), &camera, 0.5);
         // 1e-3 of the mesh is a million of a lattice's steps.
-        scenes.push(HardScene { beyond_gpu: near.beyond_gpu.filter(|_| angle < 1e-4), ..near });
+        scenes.push(HardScene { beyond: near.beyond.filter(|_| angle < 1e-4), ..near });
     }
     scenes
 }
@@ -152,10 +138,6 @@ fn crossing(at: DVec3, slip: DVec2) -> [DVec3; 4] {
     ]
 }
 
-/// The crossing of class 2 lies at the ends of both edges: a step to any side makes it class 1, 2, 3 or 4, as around each cell of this
-/// chart, with steps from a quarter down to one ulp. Where classes are computed by formulas of their own, the thick vertex jumps or
-/// divides by a vanishing length. Here one formula holds in all classes: thick vertex and chord change by no more than eight times the
-/// step, down to 1e-17.
 pub(super) fn crossing_at_the_ends() -> Vec<HardScene> {
     let ways = [[0, 0], [1, 0], [1, 1], [0, 1], [-1, 1], [-1, 0], [-1, -1], [0, -1], [1, -1]];
     let chart = |slip: &dyn Fn(DVec3, [i32; 2]) -> DVec2| {
