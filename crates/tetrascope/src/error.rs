@@ -54,6 +54,14 @@ pub enum Error {
     /// More memory is asked for than there is.
     #[error(transparent)]
     Memory(#[from] MemoryError),
+    /// A mesh needs more memory than there is.
+    #[error("{source_name}: {error}")]
+    MeshMemory {
+        /// What the mesh is called.
+        source_name: String,
+        /// How much it needs.
+        error: MemoryError,
+    },
     /// A mesh that is built in goes by another name.
     #[error("there is no built-in mesh \"{}\"; there is {}", name.display(), crate::SAMPLE)]
     NoSuchSample {

@@ -49,7 +49,7 @@ impl Volume {
     /// The path [`SAMPLE`] stands for [`Volume::sample`].
     ///
     /// # Errors
-    /// [`Error::Io`] if the file is not read, [`Error::Mesh`] if nothing in it has a volume, [`Error::Memory`] if either cannot be held.
+    /// [`Error::Io`] if the file is not read, [`Error::Mesh`] if nothing in it has a volume, [`Error::MeshMemory`] if either cannot be held.
     pub fn load(path: &Path, solution: Option<&Path>) -> Result<Self, Error> {
         if is_builtin(path) {
             return if path == Path::new(SAMPLE) {
@@ -61,7 +61,8 @@ impl Volume {
         let start = Instant::now();
         // What cannot be looked at is the reader's to tell.
         let bytes_of = |path: &Path| std::fs::metadata(path).map_or(0, |metadata| metadata.len());
-        memory::check_file(bytes_of(path) + solution.map_or(0, bytes_of))?;
+        memory::check_file(bytes_of(path) + solution.map_or(0, bytes_of))
+            .map_err(|error| Error::MeshMemory { source_name: path.display().to_string(), error })?;
         let loaded = read_mesh(path, solution)?;
         let read = start.elapsed();
         let mut volume = Self::from_dataset(loaded.dataset, &path.display().to_string())?;
@@ -75,9 +76,10 @@ impl Volume {
     /// A mesh that the caller has made. `source_name` is what messages call it.
     ///
     /// # Errors
-    /// [`Error::Mesh`] if nothing in it has a volume, [`Error::Memory`] if its tetrahedra cannot be held.
+    /// [`Error::Mesh`] if nothing in it has a volume, [`Error::MeshMemory`] if its tetrahedra cannot be held.
     pub fn from_dataset(dataset: Dataset, source_name: &str) -> Result<Self, Error> {
-        memory::check_mesh(cell_count(&dataset.cells), dataset.points.len())?;
+        memory::check_mesh(cell_count(&dataset.cells), dataset.points.len())
+            .map_err(|error| Error::MeshMemory { source_name: source_name.to_owned(), error })?;
         let start = Instant::now();
         let decomposition =
             decompose(&dataset).map_err(|error| Error::Mesh { source_name: source_name.to_owned(), error })?;

@@ -153,8 +153,11 @@ impl Optics {
     }
 }
 
-/// To f32 without becoming infinite: times zero, infinity would be NaN.
+/// What is more than this is opaque however short a chord is, and white however thin.
+const MOST: f64 = 1e30;
+
+/// To f32, so far from infinite that sums and products with scalars and lengths are finite too: times zero, infinity would be NaN.
 #[inline(always)]
 fn finite(x: f64) -> f32 {
-    x.clamp(f64::from(f32::MIN), f64::from(f32::MAX)) as f32
+    x.clamp(-MOST, MOST) as f32
 }

@@ -3,7 +3,7 @@
 use glam::{DVec2, DVec3};
 use tetrascope::classify::{Sign, TRUTH_TABLE, TableEntry, Tests};
 
-use super::super::case::HardScene;
+use super::super::case::{Beyond, HardScene};
 use super::super::views::{Pieces, down, down_from, lively, look, nudged, oriented};
 use super::shapes::alone;
 use super::{PLACE, RANGE, SPREAD};
@@ -121,7 +121,8 @@ pub(super) fn thick_vertex_between_parallel_edges() -> Vec<HardScene> {
         let place = format!("an angle of {angle:e}, near{words}");
         let near = alone(&place, &cell(PLACE, angle), &camera, 0.5);
         // 1e-3 of the mesh is a million of a lattice's steps.
-        scenes.push(HardScene { beyond: near.beyond.filter(|_| angle < 1e-4), ..near });
+        let beyond = (angle < 1e-4).then_some(Beyond::gpu("less than a hundredth of the mesh"));
+        scenes.push(HardScene { beyond, ..near });
     }
     scenes
 }
