@@ -60,7 +60,7 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
         // The reference is what the others are held against.
         figures.retain(|figures| figures.way != Way::Reference);
         let one = [(*case, figures)];
-        println!("{}", sections(&one).lines().last().unwrap_or_default());
+        println!("{}", sections(&one).trim_end().lines().last().unwrap_or_default());
         told.extend(one);
     }
     if !failures.is_empty() {
