@@ -402,7 +402,7 @@ fn a_cell_constant_on_a_step_takes_the_upper_side() {
         let plan = plan(transfer.clone(), OpticalModel::DensityEmitter, integration);
         let wide = GpuSegment { low: -1000, high: 1000, ..segment };
         let (lights, found) = integrate(&gpu, &plan, &[segment, wide]);
-        assert_eq!(lights, [[0.0, 1.0, 0.0, 0.0]; 2], "{integration}");
+        assert_eq!(lights, [[0.0, 1.0, 0.0, 1.0]; 2], "{integration}");
         assert_eq!(found.iter().map(|one| one[1]).collect::<Vec<_>>(), [1, 2]);
     }
 }
