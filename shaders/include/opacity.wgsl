@@ -2,11 +2,11 @@
 //
 // Whichever is the smaller has the more digits, so that thousands of thin layers add up to the right sum, and thousands more behind them still count.
 
-const THIN: f32 = 0.5;
+const HALF_OPAQUE: f32 = 0.5;
 
 // The transmittance is kept above 0, so that its sign is seen on every device.
 fn packed_opacity(opacity: f32, transmittance: f32) -> f32 {
-    return select(-max(transmittance, 1e-37), opacity, opacity < THIN);
+    return select(-max(transmittance, 1e-37), opacity, opacity < HALF_OPAQUE);
 }
 
 fn opacity_of(packed: f32) -> f32 {
