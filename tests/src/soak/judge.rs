@@ -323,13 +323,16 @@ fn agreement(field: &VolumeField<'_>, plan: &Plan, rendered: &Rendered) -> (Agre
     }
 }
 
-/// Whether a cell has points on both sides of the plane through the eye.
+/// Whether a cell has points on both sides of the plane through the eye: in an orthographic view too cells are cut there.
 fn reaches_the_eye(field: &VolumeField<'_>, plan: &Plan) -> bool {
     let mesh = field.on_mesh.mesh.as_ref();
     let frame = mesh.frame();
     let view = plan.view.in_frame(frame.origin, frame.scale);
     let is_behind = |v: usize| (mesh.positions()[v] - view.eye).dot(view.forward) <= 0.0;
-    view.is_perspective && mesh.tetrahedra().iter().any(|cell| cell.iter().any(|v| is_behind(v.index())))
+    mesh.tetrahedra().iter().any(|cell| {
+        let behind = cell.iter().filter(|v| is_behind(v.index())).count();
+        (1..4).contains(&behind)
+    })
 }
 
 /// Color that is multiplied by opacity is a mean of the colors that there are.

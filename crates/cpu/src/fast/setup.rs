@@ -23,6 +23,10 @@ const STEEP: f64 = 256.0;
 /// A cell whose nearest point is closer than this share of its farthest is drawn in f64: it reaches the plane of the eye, or nearly.
 const NEAR: f64 = 1e-2;
 
+/// A cell whose volume is less than this share of that of its three edges at a right angle is drawn as the reference draws it: corners are known to
+/// 1e-16 of their distance, and where three of them are in line the face has no normal.
+const FLAT: f64 = 1e-9;
+
 /// Cells that are fetched together before they are set up.
 const BATCH: usize = 32;
 
@@ -52,7 +56,7 @@ pub(crate) struct SetUp<'a> {
     pub(crate) in_ring: &'a [bool],
 }
 
-/// Fans have no place on the screen for what lies behind the eye: cells are cut at this share of their farthest depth.
+/// Fans have no place on the screen for what lies behind the eye: cells that reach there are cut at this share of their farthest depth.
 const FAN_NEAR: f64 = 1e-4;
 
 impl SetUp<'_> {
@@ -182,12 +186,13 @@ impl SetUp<'_> {
                 records.fans.push(fans.fan(cell, DVec2::new(u, w), depth));
             }
         };
-        let farthest = cell.corners.iter().fold(f64::NEG_INFINITY, |m, p| m.max(p.z));
-        let depth = if space.is_perspective { FAN_NEAR * farthest } else { 0.0 };
-        if cell.corners.iter().all(|p| p.z >= depth) {
+        // In f64 whatever lies in front of the eye has a place on the screen, however near.
+        if cell.corners.iter().all(|p| if space.is_perspective { p.z > 0.0 } else { p.z >= 0.0 }) {
             add(cell);
             return;
         }
+        let farthest = cell.corners.iter().fold(f64::NEG_INFINITY, |m, p| m.max(p.z));
+        let depth = if space.is_perspective { FAN_NEAR * farthest } else { 0.0 };
         let (mut corners, mut scalars) = (cell.corners, cell.scalars);
         if !cell.is_positive {
             corners.swap(2, 3);
@@ -218,7 +223,11 @@ impl SetUp<'_> {
         let n3 = -ab.cross(ac);
         let n0 = -(n1 + n2 + n3);
         let six_volume = -n1.dot(b - a);
-        if !(six_volume > 0.0 && six_volume.is_finite()) {
+        // Where the volume is next to nothing for such edges, normals are rounding, and other roundings give another cell.
+        let deep = if is_perspective { 1.0 / self.space.slope[0] } else { 1.0 };
+        let squared = |edge: DVec3| edge.x * edge.x + edge.y * edge.y + edge.z * edge.z * (deep * deep);
+        let largest = (squared(ab) * squared(ac) * squared(ad)).sqrt();
+        if !(six_volume * deep > FLAT * largest && six_volume.is_finite()) {
             return None;
         }
 
