@@ -1,5 +1,6 @@
 //! Draws a case in every way and says what is wrong.
 
+use std::collections::HashMap;
 use std::fmt;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::Arc;
@@ -177,7 +178,7 @@ fn judge_inner(case: &Case, ways: &[Way], drawing: Drawing<'_>, judged: &mut Jud
         if agreement != Agreement::Light {
             judged.agreement = why;
         }
-        compared.check(*way, &reference, &rendered.image, agreement, judged);
+        compared.check(*way, own, [&reference, &rendered.image], agreement, judged);
     }
 }
 
@@ -295,6 +296,9 @@ fn agreement(field: &VolumeField<'_>, plan: &Plan, rendered: &Rendered) -> (Agre
     }
     // The side of a surface is handed on from cell to cell: in a wrong order crossings are missed or doubled.
     let without_order = if plan.isosurfaces.is_some() { Agreement::Soundness } else { Agreement::Opacity };
+    if plan.isosurfaces.is_some() && jumps(field) {
+        return (Agreement::Soundness, "soundness: isosurfaces lie in jumps of the field, in no cell");
+    }
     let Ok(renderer) = field.renderer() else { return (without_order, "opacity: no order is known") };
     let (cells, visibility) = (renderer.cells(), renderer.visibility());
     let overlaps = visibility.overlaps(cells);
@@ -321,6 +325,19 @@ fn agreement(field: &VolumeField<'_>, plan: &Plan, rendered: &Rendered) -> (Agre
     } else {
         (without_order, "opacity: the order that was asked for is not right here")
     }
+}
+
+/// Whether cells that touch have different scalars there: two points at one place. Isosurfaces between the two lie in no cell, and which of them the
+/// next cell draws depends on what is near its own scalars.
+fn jumps(field: &VolumeField<'_>) -> bool {
+    let mesh = field.on_mesh.mesh.as_ref();
+    let points = mesh.tetrahedra().iter().flatten().map(|v| v.index());
+    let mut seen = HashMap::new();
+    points.into_iter().any(|point| {
+        // Equal zeros have equal bits.
+        let place = (mesh.positions()[point] + 0.0).to_array().map(f64::to_bits);
+        *seen.entry(place).or_insert(field.on_mesh.scalars[point]) != field.on_mesh.scalars[point]
+    })
 }
 
 /// Whether a cell has points on both sides of the plane through the eye: in an orthographic view too cells are cut there.
@@ -360,7 +377,15 @@ struct Compared<'a> {
 }
 
 impl Compared<'_> {
-    fn check(&self, way: Way, reference: &LinearImage, image: &LinearImage, agreement: Agreement, judged: &mut Judged) {
+    /// - `own`: the plan that the way drew by
+    fn check(
+        &self,
+        way: Way,
+        own: &Plan,
+        [reference, image]: [&LinearImage; 2],
+        agreement: Agreement,
+        judged: &mut Judged,
+    ) {
         let channels: &[usize] = match agreement {
             Agreement::Light => &[0, 1, 2, 3],
             Agreement::Opacity => &[3],
@@ -380,7 +405,8 @@ impl Compared<'_> {
         let mut margin = Margin { way, difference: inside, limit };
         if !beyond.is_empty() {
             let pixels: Vec<[u32; 2]> = beyond.iter().map(|&p| place(image, p)).collect();
-            let may_be = envelope(self.field, self.plan, self.scene, &pixels, self.range, reach(way));
+            let plan = Plan { order: own.order, cycles: own.cycles, ..self.plan.clone() };
+            let may_be = envelope(self.field, &plan, self.scene, &pixels, self.range, reach(way), limit);
             let (mut worst, mut wrong) = ((0.0, 0), 0);
             for (index, &pixel) in beyond.iter().enumerate() {
                 let off = may_be.as_ref().map_or(differences[pixel], |may_be| {

@@ -134,7 +134,7 @@ impl SetUp<'_> {
         records.cells.extend(record);
     }
 
-    /// Whether the transfer function changes faster in a cell than 32 bits know a scalar.
+    /// Whether the transfer function changes faster in a cell than 32 bits know a scalar, or is denser than they know a depth.
     #[inline(always)]
     fn is_sharp(&self, cell: &Cell) -> bool {
         let Some(sharp) = self.sharpness else { return false };
@@ -142,7 +142,10 @@ impl SetUp<'_> {
             values.iter().fold([f64::INFINITY, f64::NEG_INFINITY], |[l, h], &v| [l.min(v), h.max(v)])
         };
         let ([low, high], [nearest, farthest]) = (range(cell.scalars), range(cell.corners.map(|p| p.z)));
-        sharp.is_beyond_32_bits(low, high, (farthest - nearest) * self.longest_depth)
+        let chord = (farthest - nearest) * self.longest_depth;
+        sharp.is_beyond_32_bits(low, high, chord)
+            || (self.optics.model.needs_extinction()
+                && Sharpness::is_chord_beyond_32_bits(self.optics.transfer().max_extinction(low, high), chord))
     }
 
     /// Adds the part of a cell that lies behind planes, if the cell has volume; in f64, where any number of planes can bound it.
