@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use std::sync::Mutex;
 use std::time::{Duration, Instant};
 
-use tetrascope_tests::soak::{Case, Failure, Tally, draw, judge, read_case, reduce, write_case};
+use tetrascope_tests::soak::{Case, Failure, Judged, Tally, draw, judge, read_case, reduce, write_case};
 use tetrascope_tests::ways::Way;
 
 use crate::Failure as TaskFailure;
@@ -21,6 +21,9 @@ pub(crate) struct Args {
     /// Draw and write this one seed as it is, instead
     #[arg(long, value_name = "SEED")]
     scene_of: Option<u64>,
+    /// Judge this scene that failed before, instead
+    #[arg(long, value_name = "SCENE", conflicts_with = "scene_of")]
+    scene: Option<PathBuf>,
     /// Every how many-th scene the GPU draws too: a driver that is software compiles longer than all others draw
     #[arg(long, value_name = "K", default_value_t = 4, value_parser = clap::value_parser!(u64).range(1..))]
     gpu_every: u64,
@@ -48,7 +51,16 @@ pub(crate) fn run(args: &Args) -> Result<(), TaskFailure> {
     let names: Vec<String> = ways.iter().map(Way::to_string).collect();
     println!("ways: {}", names.join(", "));
     if let Some(seed) = args.scene_of {
-        return one(args, seed, &ways);
+        let case = Case::of(seed);
+        println!("{}", case.describe());
+        let judged = judge(&case, &ways, &draw);
+        println!("written: {}", write_case(&args.output, &case, &judged.failures)?.scene.display());
+        return say(&judged);
+    }
+    if let Some(scene) = &args.scene {
+        let case = read_case(scene, args.seed)?;
+        println!("{}", case.describe());
+        return say(&judge(&case, &ways, &draw));
     }
     let end = Duration::from_secs_f64(args.minutes * 60.0);
     let start = Instant::now();
@@ -122,13 +134,8 @@ fn place_of(failure: &Failure) -> String {
     if is_panic { PANICKED.lock().map_or(String::new(), |place| place.clone()) } else { String::new() }
 }
 
-/// One seed, as it is.
-fn one(args: &Args, seed: u64, ways: &[Way]) -> Result<(), TaskFailure> {
-    let case = Case::of(seed);
-    println!("{}", case.describe());
-    let judged = judge(&case, ways, &draw);
-    let written = write_case(&args.output, &case, &judged.failures)?;
-    println!("written: {}", written.scene.display());
+/// What came of one case.
+fn say(judged: &Judged) -> Result<(), TaskFailure> {
     for (way, words) in &judged.refusals {
         println!("refused, {way}: {words}");
     }

@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 use tetrascope_integrate::{
-    Integration, Isosurface, Isosurfaces, OpticalModel, Phong, SurfaceShading, TransferFunction,
+    Integration, Isosurface, Isosurfaces, OpticalModel, Phong, SurfaceShading, TableSettings, TransferFunction,
 };
 use tetrascope_mesh::{Cells, Dataset, StructuredBlock, TetMesh, decompose, rings_sample};
 use tetrascope_scene::{IsosurfaceMethod, IsosurfacePlan, Lighting, Mixing, Plan, PlanError, Silent};
@@ -412,4 +412,25 @@ fn vertex_is_refused() {
     plan.integration = Integration::Vertex;
     let error = reference::render(&mesh, &scalars, &plan, &Silent).unwrap_err();
     assert!(matches!(error, RenderError::IntegrationNeedsFan), "{error}");
+}
+
+/// A table smears what lies in a step of the transfer function over a sample. Cells beside it show nothing all the same, as in every other renderer.
+#[test]
+fn tables_show_nothing_of_cells_that_have_nothing_to_show() {
+    let mut plan = plan_of(on_the_grid(2, 0.5, DVec3::Z), 0.0, OpticalModel::DensityEmitter, &[]);
+    plan.isosurfaces = None;
+    plan.transfer = TransferFunction::new(&[[0.0, 0.2, 0.4, 0.6]], &[[0.51, 0.0], [0.51, 40.0]]).unwrap();
+    plan.tables = Some(TableSettings { scalars: 4, ..TableSettings::of(Integration::Table3d).unwrap() });
+    // Two layers from left to right: scalars from 0 to 0.5, and from 0.5 to 1.
+    let cube = cube(2, 0.5, |p| 1.0 - p.x);
+    for integration in [Integration::Table2d, Integration::Table3d] {
+        plan.integration = integration;
+        let image = draw(&cube, &plan);
+        let opacities = |columns: std::ops::Range<usize>| {
+            let row = &image.pixels()[3 * 7..4 * 7];
+            row[columns].iter().map(|p| p[3]).collect::<Vec<_>>()
+        };
+        assert_eq!(opacities(0..3), [0.0; 3], "{integration}");
+        assert!(opacities(4..5)[0] > 0.5, "{integration}: {:?}", opacities(0..7));
+    }
 }

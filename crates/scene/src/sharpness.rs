@@ -69,6 +69,15 @@ impl Sharpness {
         self.between(low, high) * chord * STEP > MOST
     }
 
+    /// Whether a chord in 32 bits may be off by more than 1e-4 of the optical depth: where rays leave at an outline, a depth that is off by `e` of the cell's
+    /// is `e` of it seen or not seen, however long the chord is.
+    ///
+    /// - `extinction`: the highest there
+    /// - `depth`: of the cell along the rays, in the unit of one over the extinction
+    pub fn is_chord_beyond_32_bits(extinction: f64, depth: f64) -> bool {
+        extinction * depth * STEP > MOST
+    }
+
     /// Whether any cell whose chords are no longer than this may be beyond 32 bits.
     pub fn may_be_beyond_32_bits(&self, chord: f64) -> bool {
         self.is_beyond_32_bits(f64::NEG_INFINITY, f64::INFINITY, chord)
@@ -99,6 +108,7 @@ mod tests {
             assert!((sharp.between(low, high) - expected).abs() < 1e-12, "{low} {high}: {}", sharp.between(low, high));
         }
         assert!(!sharp.may_be_beyond_32_bits(1.0));
+        assert!(!Sharpness::is_chord_beyond_32_bits(5.0, 100.0) && Sharpness::is_chord_beyond_32_bits(5.0, 1e3));
         assert!(sharp.may_be_beyond_32_bits(1e4) && !sharp.is_beyond_32_bits(2.0, 2.9, 1e4));
     }
 

@@ -8,8 +8,10 @@
 
 use glam::DVec3;
 use tetrascope::cpu::rays::RayTracer;
-use tetrascope::mesh::TetMesh;
-use tetrascope::{Backend, Isosurfaces, LinearImage, Plan, SceneFile, Silent, TransferFunction, View, VolumeField};
+use tetrascope::mesh::{CellId, TetMesh};
+use tetrascope::{
+    Backend, Isosurfaces, LinearImage, Plan, RgbaAssoc, SceneFile, Silent, TransferFunction, View, VolumeField,
+};
 
 use crate::meshes::Random;
 
@@ -33,9 +35,10 @@ const MISSING: f64 = 0.5;
 
 /// Lowest and highest value of each channel of the pixels asked for, over scenes within reach.
 ///
-/// - `plan`: as the reference draws it
+/// - `plan`: by which the pixels were drawn that are asked for
 /// - `scene`: that it was made from, with its transfer function in numbers
 /// - `range`: of the scalars
+/// - `limit`: what light may be off by where one order is as good as another
 ///
 /// `None` if the reference refuses.
 pub(super) fn envelope(
@@ -45,8 +48,10 @@ pub(super) fn envelope(
     pixels: &[[u32; 2]],
     range: [f64; 2],
     reach: Reach,
+    limit: f64,
 ) -> Option<Vec<[[f64; 2]; 4]>> {
     let mut found = vec![[[f64::INFINITY, f64::NEG_INFINITY]; 4]; pixels.len()];
+    add_by_cells(field, plan, pixels, &mut found, reach, limit)?;
     let plan = Plan { backend: Backend::Reference, ..plan.clone() };
     let (mesh, scalars) = (field.on_mesh.mesh.as_ref(), &field.on_mesh.scalars);
     // Scalars far from 0 are known to no more than their own last digits, from which the reference interpolates.
@@ -83,6 +88,65 @@ pub(super) fn envelope(
         (*low, *high) = (*low - missing, *high + missing);
     }
     Some(found)
+}
+
+/// Rays next to one, of which nearly all must come out right in the order of whole cells for the one to be where cells meet.
+const NEIGHBORS: u32 = 16;
+
+/// Adds the light of rays whose cells are blended in the plan's order of whole cells, where that order is right for the rays about them.
+///
+/// A ray that runs along an edge, or in a face's plane, is in one or another of the cells about it as each of their faces rounds. No ray meets the inside
+/// of two of these one behind the other, so that an order of whole cells says nothing of them: a part of the ray in one may be blended before a part in
+/// another that lies nearer. Its neighbors have none of this. An order that is wrong is wrong for them too, and hides here behind nothing.
+fn add_by_cells(
+    field: &VolumeField<'_>,
+    plan: &Plan,
+    pixels: &[[u32; 2]],
+    found: &mut [[[f64; 2]; 4]],
+    reach: Reach,
+    limit: f64,
+) -> Option<()> {
+    if !plan.order.sorts_cells() || plan.commutes() {
+        return Some(());
+    }
+    let renderer = field.renderer().ok()?;
+    let (cells, frame) = (renderer.cells(), field.on_mesh.mesh.frame());
+    let viewpoint = plan.view.in_frame(frame.origin, frame.scale).viewpoint();
+    let (mesh, scalars) = (field.on_mesh.mesh.as_ref(), &field.on_mesh.scalars);
+    let tracer = RayTracer::new(mesh, scalars, &plan.view).ok()?;
+    let drawn: Vec<CellId> = tracer.seen().iter().map(|&(cell, _)| CellId(cell)).collect();
+    let order = renderer.visibility().prepare(cells, plan.order).order(cells, viewpoint, &drawn);
+    let mut ranks = vec![u32::MAX; cells.tetrahedra.len()];
+    for (rank, cell) in (0..).zip(&order.front_to_back) {
+        ranks[cell.index()] = rank;
+    }
+    let rank = |cell: u32| ranks[cell as usize];
+    let mut right = vec![0; pixels.len()];
+    let mut random = Random::new(0x0DDE);
+    for _ in 0..NEIGHBORS {
+        let turn = [random.between(-1.0, 1.0), random.between(-1.0, 1.0)].map(|d| d * reach.pixels);
+        let view = turned(&plan.view, turn);
+        let tracer = RayTracer::new(mesh, scalars, &view).ok()?;
+        let rays = tracer.trace(pixels);
+        let shader = tracer.shader(plan, &Silent).ok()?;
+        for (ray, right) in right.iter_mut().enumerate() {
+            let [sorted, by_cells] = [shader.light(&rays, ray), shader.light_by_rank(&rays, ray, rank)];
+            let off = (0..3).map(|c| (sorted.rgb[c] - by_cells.rgb[c]).abs()).fold(0.0, f64::max);
+            *right += u32::from(off <= 0.5 * limit);
+        }
+    }
+    let rays = tracer.trace(pixels);
+    let shader = tracer.shader(plan, &Silent).ok()?;
+    for (ray, channels) in found.iter_mut().enumerate().filter(|(ray, _)| right[*ray] * 4 >= NEIGHBORS * 3) {
+        widen(channels, shader.light_by_rank(&rays, ray, rank));
+    }
+    Some(())
+}
+
+fn widen(channels: &mut [[f64; 2]; 4], light: RgbaAssoc) {
+    for (channel, value) in channels.iter_mut().zip([light.rgb[0], light.rgb[1], light.rgb[2], light.opacity]) {
+        *channel = [channel[0].min(value), channel[1].max(value)];
+    }
 }
 
 /// For every point how far it may be moved, local units.
@@ -128,10 +192,7 @@ fn add(mesh: &TetMesh, scalars: &[f64], plan: &Plan, pixels: &[[u32; 2]], found:
     let rays = tracer.trace(pixels);
     let shader = tracer.shader(plan, &Silent).ok()?;
     for (ray, channels) in found.iter_mut().enumerate() {
-        let light = shader.light(&rays, ray);
-        for (channel, value) in channels.iter_mut().zip([light.rgb[0], light.rgb[1], light.rgb[2], light.opacity]) {
-            *channel = [channel[0].min(value), channel[1].max(value)];
-        }
+        widen(channels, shader.light(&rays, ray));
     }
     Some(())
 }

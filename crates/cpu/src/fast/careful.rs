@@ -148,7 +148,16 @@ pub(crate) fn careful_sample<S: Simd>(
 ) -> Option<Sample<S>> {
     let [front, back, length, nearness, enter, leave] =
         careful_lanes(simd, cell, record.scalar_reference, space, [x, y])?.map(|lane| f32x8::load_array(simd, lane));
-    let covered = length.simd_gt(f32x8::splat(simd, 0.0));
     let place = [columns(simd, record, x), rows(simd, record, y)];
+    // A cell without thickness has faces that are rounding, behind all of which rays far from it may lie.
+    let [left, right, top, bottom] = record.outline.map(i32::from);
+    let [from_x, from_y] = record.pixel.map(i32::from);
+    let within = |place: f32x8<S>, first: i32, last: i32, from: i32| {
+        place.simd_ge((first - from) as f32) & place.simd_le((last - from) as f32)
+    };
+    let is_near = within(place[0], left, right, from_x) & within(place[1], top, bottom, from_y);
+    let none = f32x8::splat(simd, 0.0);
+    let (length, nearness) = (is_near.select(length, none), is_near.select(nearness, none));
+    let covered = length.simd_gt(none);
     Some(Sample { front, back, length, nearness, depth: [enter, leave], place, covered })
 }

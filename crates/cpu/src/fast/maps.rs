@@ -115,7 +115,7 @@ impl Maps {
         shade: Shade<S>,
     ) -> (Light<S>, u64) {
         let own = self.texels(simd, with_effects.record, sample);
-        let front = joint.carry(simd, sample, with_effects.slack, own);
+        let front = joint.carry(simd, sample, with_effects.slack(simd, sample), own);
         // On the diagonal nothing is crossed.
         let front = sample.covered.select(front, own[1]);
         let (front, back) = (to_texels(front), to_texels(own[1]));

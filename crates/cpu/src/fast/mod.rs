@@ -49,7 +49,8 @@ use tetrascope_mesh::{
 };
 use tetrascope_order::{Cells, CycleRemedy, Guarantee, MeshVisibility, OrderMethod, PixelSort, VisibilityOrder};
 use tetrascope_scene::{
-    Counts, Gradients, Interpolation, OrderReport, Plan, PlanError, Progress, Rendered, Stage, Stopwatch, check_scalars,
+    Counts, Gradients, Interpolation, OrderReport, Plan, PlanError, Progress, Rendered, Sharpness, Stage, Stopwatch,
+    check_scalars,
 };
 
 use crate::RenderError;
@@ -273,9 +274,12 @@ impl CpuRenderer {
         let effects = effects.as_ref();
         let longest_depth = space.ray_stretch(0.5 * f64::from(space.size[0]), 0.5 * f64::from(space.size[1]));
         // Local coordinates are at most 1 long, so that no chord is longer than 2.
-        let is_sharp = plan.integration == Integration::Exact
-            && plan.interpolation == Interpolation::Exact
-            && optics.sharpness().may_be_beyond_32_bits(2.0 * self.frame.scale * longest_depth / space.world_per_depth);
+        let longest_chord = 2.0 * self.frame.scale * longest_depth / space.world_per_depth;
+        let densest = optics.transfer().max_extinction(f64::NEG_INFINITY, f64::INFINITY);
+        let is_sharp = plan.interpolation == Interpolation::Exact
+            && (optics.sharpness().may_be_beyond_32_bits(longest_chord)
+                || (plan.model.needs_extinction() && Sharpness::is_chord_beyond_32_bits(densest, longest_chord)));
+        let sharp = if is_sharp { sharp::integrator(plan.integration, &optics) } else { None };
         let setup = SetUp {
             renderer: self,
             points,
@@ -283,7 +287,7 @@ impl CpuRenderer {
             outlines,
             optics: &optics,
             with_fans,
-            sharpness: is_sharp.then(|| optics.sharpness()),
+            sharpness: sharp.is_some().then(|| optics.sharpness()),
             longest_depth,
             interpolation: plan.interpolation,
             effects,
@@ -324,6 +328,7 @@ impl CpuRenderer {
             optics: &optics,
             plan,
             lookup: lookup.as_deref(),
+            sharp: sharp.as_ref(),
             effects,
             sorting,
             level: self.level,

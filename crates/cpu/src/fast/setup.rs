@@ -25,6 +25,9 @@ const NEAR: f64 = 1e-2;
 
 /// A cell that reaches beyond this many pictures to any side is drawn in f64.
 const MAGNIFIED: f64 = 64.0;
+/// A cell whose volume is less than this share of that of its three edges at a right angle is drawn as the reference draws it: corners are known to
+/// 1e-16 of their distance, and where three of them are in line the face has no normal.
+const FLAT: f64 = 1e-9;
 
 /// Cells that are fetched together before they are set up.
 const BATCH: usize = 32;
@@ -55,7 +58,7 @@ pub(crate) struct SetUp<'a> {
     pub(crate) in_ring: &'a [bool],
 }
 
-/// Fans have no place on the screen for what lies behind the eye: cells are cut at this share of their farthest depth.
+/// Fans have no place on the screen for what lies behind the eye: cells that reach there are cut at this share of their farthest depth.
 const FAN_NEAR: f64 = 1e-4;
 
 impl SetUp<'_> {
@@ -133,7 +136,7 @@ impl SetUp<'_> {
         records.cells.extend(record);
     }
 
-    /// Whether the transfer function changes faster in a cell than 32 bits know a scalar.
+    /// Whether the transfer function changes faster in a cell than 32 bits know a scalar, or is denser than they know a depth.
     #[inline(always)]
     fn is_sharp(&self, cell: &Cell) -> bool {
         let Some(sharp) = self.sharpness else { return false };
@@ -141,7 +144,10 @@ impl SetUp<'_> {
             values.iter().fold([f64::INFINITY, f64::NEG_INFINITY], |[l, h], &v| [l.min(v), h.max(v)])
         };
         let ([low, high], [nearest, farthest]) = (range(cell.scalars), range(cell.corners.map(|p| p.z)));
-        sharp.is_beyond_32_bits(low, high, (farthest - nearest) * self.longest_depth)
+        let chord = (farthest - nearest) * self.longest_depth;
+        sharp.is_beyond_32_bits(low, high, chord)
+            || (self.optics.model.needs_extinction()
+                && Sharpness::is_chord_beyond_32_bits(self.optics.transfer().max_extinction(low, high), chord))
     }
 
     /// Adds the part of a cell that lies behind planes, if the cell has volume; in f64, where any number of planes can bound it.
@@ -185,12 +191,13 @@ impl SetUp<'_> {
                 records.fans.push(fans.fan(cell, DVec2::new(u, w), depth));
             }
         };
-        let farthest = cell.corners.iter().fold(f64::NEG_INFINITY, |m, p| m.max(p.z));
-        let depth = if space.is_perspective { FAN_NEAR * farthest } else { 0.0 };
-        if cell.corners.iter().all(|p| p.z >= depth) {
+        // In f64 whatever lies in front of the eye has a place on the screen, however near.
+        if cell.corners.iter().all(|p| if space.is_perspective { p.z > 0.0 } else { p.z >= 0.0 }) {
             add(cell);
             return;
         }
+        let farthest = cell.corners.iter().fold(f64::NEG_INFINITY, |m, p| m.max(p.z));
+        let depth = if space.is_perspective { FAN_NEAR * farthest } else { 0.0 };
         let (mut corners, mut scalars) = (cell.corners, cell.scalars);
         if !cell.is_positive {
             corners.swap(2, 3);
@@ -238,7 +245,11 @@ impl SetUp<'_> {
         let n3 = -ab.cross(ac);
         let n0 = -(n1 + n2 + n3);
         let six_volume = -n1.dot(b - a);
-        if !(six_volume > 0.0 && six_volume.is_finite()) {
+        // Where the volume is next to nothing for such edges, normals are rounding, and other roundings give another cell.
+        let deep = if is_perspective { 1.0 / self.space.slope[0] } else { 1.0 };
+        let squared = |edge: DVec3| edge.x * edge.x + edge.y * edge.y + edge.z * edge.z * (deep * deep);
+        let largest = (squared(ab) * squared(ac) * squared(ad)).sqrt();
+        if !(six_volume * deep > FLAT * largest && six_volume.is_finite()) {
             return None;
         }
 

@@ -1,12 +1,25 @@
-//! Cells in which the transfer function changes faster than 32 bits know a scalar, integrated in f64, ray by ray.
+//! Cells in which the transfer function changes faster than 32 bits know a scalar, or is denser than they know a depth, integrated in f64, ray by ray.
 
 use fearless_simd::{Simd, f32x8, prelude::*};
-use tetrascope_integrate::{Segment, exact};
+use tetrascope_integrate::{Integration, Integrator, OpticalModel, Segment};
 
 use super::cell::CarefulCell;
 use super::optics::Optics;
 use super::sample::{LANES, Light, Sample};
 use crate::geometry::PixelSpace;
+
+/// What such cells are integrated with; `None` for methods that sample the transfer function, which have no digits to lose.
+pub(crate) fn integrator(integration: Integration, optics: &Optics) -> Option<Integrator> {
+    let has_corrections = matches!(optics.model, OpticalModel::DensityEmitter | OpticalModel::Emitter);
+    let integration = match integration {
+        Integration::Exact => Integration::Exact,
+        Integration::Cumulative if has_corrections => Integration::Cumulative,
+        // As `Job::draw`: without light, or without opacity, running integrals are exact.
+        Integration::Cumulative => Integration::Exact,
+        _ => return None,
+    };
+    Integrator::new(integration, optics.transfer(), optics.model, None, &|_, _| ()).ok()
+}
 
 /// Such a cell, and all that its light depends on.
 #[derive(Clone, Copy)]
@@ -14,7 +27,7 @@ pub(crate) struct SharpCell<'a> {
     pub(crate) cell: &'a CarefulCell,
     /// The record's reference pixel.
     pub(crate) pixel: [u16; 2],
-    pub(crate) optics: &'a Optics,
+    pub(crate) integrator: &'a Integrator,
     pub(crate) space: &'a PixelSpace,
 }
 
@@ -42,7 +55,7 @@ impl SharpCell<'_> {
                 scalar_back: span.scalar[1],
                 chord_length: (span.depth[1] - span.depth[0]) * self.space.ray_stretch(u, w),
             };
-            let light = exact(self.optics.transfer(), self.optics.model, &segment);
+            let light = self.integrator.integrate(&segment);
             for (lanes, value) in rgb.iter_mut().zip(light.rgb) {
                 lanes[lane] = value as f32;
             }

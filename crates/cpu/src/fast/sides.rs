@@ -11,7 +11,7 @@ use super::deal::{Deal, index_of};
 use super::sample::{LANES, Sample};
 use super::surfaces::{CellWithEffects, Joint};
 
-/// The ends of a tile's segments in cells with surfaces, in the order in which blocks are drawn. Memory: 140 bytes a block of a cell, and 8 a
+/// The ends of a tile's segments in cells with surfaces, in the order in which blocks are drawn. Memory: 168 bytes a block of a cell, and 8 a
 /// segment.
 #[derive(Debug, Default)]
 pub(crate) struct Sides {
@@ -28,7 +28,7 @@ struct Ends {
     /// The lanes that the cell covers, as bits.
     covered: u32,
     /// How far depths may be off.
-    slack: f32,
+    slack: [f32; LANES],
     /// Depths and ranks where the rays enter and leave, as [`Joint`] has them.
     depth: [[f32; LANES]; 2],
     rank: [[f32; LANES]; 2],
@@ -46,10 +46,11 @@ impl Sides {
         let mut ends = Ends {
             block: block as u32,
             covered: sample.covered.to_bitmask() as u32,
-            slack: cell.slack,
+            slack: [0.0; LANES],
             depth: [[0.0; LANES]; 2],
             rank: [[0.0; LANES]; 2],
         };
+        cell.slack(simd, sample).store_slice(&mut ends.slack);
         let [front, back] = cell.own_ranks(simd, sample);
         front.store_slice(&mut ends.rank[0]);
         back.store_slice(&mut ends.rank[1]);
@@ -77,10 +78,10 @@ impl Sides {
             let (mut depth, mut slack, mut rank) = (f32::NEG_INFINITY, 0.0_f32, 0.0);
             for &key in &*keys {
                 let (ends, lane) = (&mut ends[index_of(key) / LANES], index_of(key) % LANES);
-                if (ends.depth[0][lane] - depth).abs() <= ends.slack.max(slack) {
+                if (ends.depth[0][lane] - depth).abs() <= ends.slack[lane].max(slack) {
                     ends.rank[0][lane] = rank;
                 }
-                (depth, slack, rank) = (ends.depth[1][lane], ends.slack, ends.rank[1][lane]);
+                (depth, slack, rank) = (ends.depth[1][lane], ends.slack[lane], ends.rank[1][lane]);
             }
         }
     }

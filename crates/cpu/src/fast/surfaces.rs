@@ -51,12 +51,11 @@ impl Joint {
         &mut self,
         simd: S,
         sample: &Sample<S>,
-        slack: f32,
+        slack: f32x8<S>,
         [front, back]: [f32x8<S>; 2],
     ) -> f32x8<S> {
         let load = |lanes: &[f32; LANES]| f32x8::from_slice(simd, lanes);
         let (depth, slack_before, rank) = (load(&self.depth), load(&self.slack), load(&self.rank));
-        let slack = f32x8::splat(simd, slack);
         let is_joint = (sample.depth[0] - depth).abs().simd_le(slack.max(slack_before));
         let covered = sample.covered;
         covered.select(sample.depth[1], depth).store_slice(&mut self.depth);
@@ -165,6 +164,16 @@ impl CellWithEffects<'_> {
         self.range.count > 0
     }
 
+    /// How far the depths of a block's segments may be off. Where they come in f64 it is their last digits alone: two cells at the eye, or as
+    /// thin as a sheet, are not one because both are small.
+    #[inline(always)]
+    pub(crate) fn slack<S: Simd>(&self, simd: S, sample: &Sample<S>) -> f32x8<S> {
+        if self.record.entry_count > 0 {
+            return f32x8::splat(simd, self.slack);
+        }
+        sample.depth[0].abs().max(sample.depth[1].abs()) * (4.0 * f32::EPSILON)
+    }
+
     /// Ranks of both ends among all surfaces by the scalars there; with maps, their texels. For a cell with surfaces.
     #[inline(always)]
     pub(crate) fn own_ranks<S: Simd>(&self, simd: S, sample: &Sample<S>) -> [f32x8<S>; 2] {
@@ -191,7 +200,7 @@ impl CellWithEffects<'_> {
         }
         let own = self.own_ranks(simd, sample);
         let first = self.range.first as f32;
-        let front = joint.carry(simd, sample, self.slack, own) - first;
+        let front = joint.carry(simd, sample, self.slack(simd, sample), own) - first;
         [front.max(0.0).min(self.range.count as f32), own[1] - first]
     }
 

@@ -1,12 +1,15 @@
 //! What the fast renderer does and leaves out: counts, memory of transfer functions, early ends, careful cells.
 
 use glam::DVec3;
-use tetrascope_integrate::{Isosurfaces, OpticalModel, TransferFunction};
+use tetrascope_integrate::{Integration, Isosurfaces, OpticalModel, TransferFunction};
 use tetrascope_mesh::TetMesh;
+
 use tetrascope_scene::{Plan, Silent};
 use tetrascope_view::{Camera, Projection, View};
 
 use super::{CpuRenderer, KEPT};
+use crate::rays::RayTracer;
+use crate::reference::render as reference;
 
 /// A row of small tetrahedra along -z, whose scalar is their number.
 fn row(count: u32) -> (TetMesh, Vec<f64>) {
@@ -90,4 +93,77 @@ fn only_cells_with_a_face_on_edge_or_at_the_eye_are_drawn_carefully() {
     let inside = renderer.render(&plan, &Silent).unwrap();
     assert!(inside.counts.careful >= 1);
     assert!(inside.image.pixels().iter().all(|p| p[3] > 0.0), "the eye's own cell covers the picture");
+}
+
+/// Four points in a line and four in a plane, but for the rounding of their coordinates: which rays meet them is rounding alone, and both renderers
+/// had other ones, with chords as long as an edge.
+#[test]
+fn cells_without_thickness_are_those_of_the_reference() {
+    let needle = [
+        DVec3::new(0.123_176_791_761_620_91, -0.408_174_557_585_253_2, -0.711_140_639_052_077_8),
+        DVec3::new(0.634_528_251_758_370_4, -0.651_359_774_252_211_9, -0.219_327_021_150_095_17),
+        DVec3::new(0.464_077_765_092_787_25, -0.570_298_035_363_225_7, -0.383_264_893_784_089_4),
+        DVec3::new(-0.047_273_694_903_962_216, -0.327_112_818_696_266_9, -0.875_078_511_686_072_1),
+    ];
+    let sheet = [
+        DVec3::new(0.0, 0.0, 1.008_090_512_171_663_4e-9),
+        DVec3::new(-0.666_660_112_222_972_2, -0.666_666_666_666_666_6, 3.360_301_707_238_878e-10),
+        DVec3::new(-0.999_980_336_668_916_6, -1.0, 0.0),
+        DVec3::new(-1.0, -1.0, 0.0),
+    ];
+    let along_the_needle = Camera {
+        eye: DVec3::new(-1.196_809_693_300_385_1, -5.516_445_103_350_505, -6.195_717_526_408_599),
+        target: DVec3::new(0.056_902_505_602_627_9, -0.516_301_120_607_377_3, 0.139_574_466_968_289_04),
+        up: DVec3::new(-0.172_869_430_179_800_4, -0.596_993_315_573_841_8, 0.742_264_226_195_095_6),
+        projection: Projection::Orthographic { height: 4.992_596_304_265_343 },
+    };
+    let across_the_sheet = Camera {
+        eye: DVec3::new(0.0, 4.242_640_687_119_286, 5.040_452_560_858_317e-10),
+        target: DVec3::new(0.0, 0.0, 5.040_452_560_858_317e-10),
+        up: DVec3::Z,
+        projection: Projection::Orthographic { height: 2.828_427_124_746_190_1 },
+    };
+    for (points, camera, [width, height]) in [(needle, along_the_needle, [31, 25]), (sheet, across_the_sheet, [21, 17])]
+    {
+        // Either way round.
+        for cell in [[0, 3, 2, 1], [3, 2, 0, 1], [0, 1, 2, 3], [0, 1, 3, 2]] {
+            let mesh = TetMesh::from_tetrahedra(&points, &[cell]).unwrap().mesh;
+            let transfer = TransferFunction::new(&[[0.0; 4]], &[[0.0, 1.0]]).unwrap();
+            let plan = Plan::new(View::new(&camera, width, height).unwrap(), transfer, OpticalModel::Absorption);
+            let [fast, right] = [
+                CpuRenderer::new(&mesh, &[0.0; 4]).unwrap().render(&plan, &Silent).unwrap().image,
+                reference(&mesh, &[0.0; 4], &plan, &Silent).unwrap().image,
+            ];
+            for (pixel, (a, b)) in fast.pixels().iter().zip(right.pixels()).enumerate() {
+                assert!((a[3] - b[3]).abs() < 1e-6, "{cell:?} pixel {pixel}: {a:?}, the reference has {b:?}");
+            }
+        }
+    }
+}
+
+/// Fans of cells that come as near to the eye as 1e-7 of their depth were cut at 1e-4 of it, so that another fan was painted than that of the cell.
+#[test]
+fn a_cell_near_the_eye_is_painted_whole() {
+    let shape = [DVec3::new(-1.0, -1.0, -2.0), DVec3::new(1.2, -1.0, -2.0), DVec3::new(0.1, 1.3, -2.0)];
+    for near in [1e-2, 1e-4, 1e-5, 1e-7] {
+        let points = [shape[0], shape[1], shape[2], DVec3::new(near, near, -near)];
+        let mesh = TetMesh::from_tetrahedra(&points, &[[0, 1, 2, 3]]).unwrap().mesh;
+        let scalars = [0.0, 4.0, 9.0, 2.0];
+        let mut plan = plan(&[[0.0, 1.0], [9.0, 3.0]]);
+        plan.integration = Integration::Vertex;
+        plan.view.eye = DVec3::ZERO;
+        (plan.view.forward, plan.view.right, plan.view.up) = (DVec3::NEG_Z, DVec3::X, DVec3::Y);
+        let image = CpuRenderer::new(&mesh, &scalars).unwrap().render(&plan, &Silent).unwrap().image;
+        let tracer = RayTracer::new(&mesh, &scalars, &plan.view).unwrap();
+        let pixels: Vec<[u32; 2]> = (0..1600).map(|pixel| [pixel % 40, pixel / 40]).collect();
+        let rays = tracer.trace(&pixels);
+        let shader = tracer.shader(&plan, &Silent).unwrap();
+        for (ray, pixel) in image.pixels().iter().enumerate() {
+            let light = shader.light(&rays, ray);
+            assert!((f64::from(pixel[3]) - light.opacity).abs() < 2e-5, "{near} {ray}: {pixel:?} {light:?}");
+            for (a, b) in pixel.iter().zip(light.rgb) {
+                assert!((f64::from(*a) - b).abs() < 2e-5, "{near} {ray}: {pixel:?} {light:?}");
+            }
+        }
+    }
 }

@@ -1,7 +1,7 @@
 //! One tile of the picture: its cells blended front to back, eight pixels at a time.
 
 use fearless_simd::{Level, Simd, dispatch, f32x8, prelude::*};
-use tetrascope_integrate::{Integration, OpticalModel};
+use tetrascope_integrate::{Integration, Integrator, OpticalModel};
 use tetrascope_scene::Plan;
 
 use super::blocks::Blocks;
@@ -36,6 +36,8 @@ pub(crate) struct Job<'a> {
     pub(crate) plan: &'a Plan,
     /// The table, where the integration has one.
     pub(crate) lookup: Option<&'a Lookup>,
+    /// What cells are integrated with that are beyond 32 bits, if any may be.
+    pub(crate) sharp: Option<&'a Integrator>,
     /// Isosurfaces and light, if there are any.
     pub(crate) effects: Option<&'a Effects>,
     /// How pixels sort what they see, if they do.
@@ -255,7 +257,8 @@ impl Job<'_> {
             return None;
         }
         let cell = &records.careful[record.careful as usize];
-        cell.is_sharp.then_some(SharpCell { cell, pixel: record.pixel, optics: self.optics, space: self.space })
+        let integrator = self.sharp.filter(|_| cell.is_sharp)?;
+        Some(SharpCell { cell, pixel: record.pixel, integrator, space: self.space })
     }
 
     /// What a cell has besides its volume, if anything.

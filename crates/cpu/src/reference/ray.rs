@@ -1,9 +1,10 @@
 //! What one ray shows: the volume of its fragments and the isosurfaces in them, front to back.
 
 use glam::DVec3;
+use rayon::prelude::*;
 use tetrascope_integrate::{Integrator, Isosurfaces, RgbaAssoc, Segment};
-use tetrascope_mesh::TetMesh;
-use tetrascope_scene::{Gradients, Plan};
+use tetrascope_mesh::{TetMesh, VertexId, scalar_factor};
+use tetrascope_scene::{Gradients, Plan, Shown};
 use tetrascope_view::View;
 
 use super::light::Light;
@@ -55,6 +56,9 @@ pub(crate) struct RayComposer<'a> {
     pub(crate) integrator: Integrator,
     surfaces: Option<Surfaces>,
     light: Option<Light<'a>>,
+    /// For every cell whether the plan shows anything of it; empty where the integration knows that by itself. Between the samples of a
+    /// table is light that a cell beside them does not have: which cells are left out is no matter of the table, see [`Shown`].
+    is_shown: Vec<bool>,
     /// In the place of the integrator, where fans are painted.
     pub(crate) fans: Option<FanPainter<'a>>,
 }
@@ -114,6 +118,7 @@ impl<'a> RayComposer<'a> {
         let surfaces = plan.isosurfaces.as_ref().map(|isosurfaces| isosurfaces.surfaces.visible());
         Self {
             integrator,
+            is_shown: if plan.integration.needs_table() { is_shown(plan, mesh, scalars) } else { Vec::new() },
             surfaces: surfaces.map(|surfaces| Surfaces::new(surfaces, mesh, scalars)),
             light: lit.map(|lighting| Light::new(lighting, needed, mesh, scalars)),
             fans: None,
@@ -193,6 +198,9 @@ impl<'a> RayComposer<'a> {
         part: &Segment,
         corners: &impl Fn(u32) -> [DVec3; 4],
     ) -> RgbaAssoc {
+        if self.is_shown.get(fragment.cell as usize) == Some(&false) {
+            return RgbaAssoc::TRANSPARENT;
+        }
         let light = match &self.fans {
             Some(fans) => fans.light(ray, fragment, &corners(fragment.cell), part),
             None => self.integrator.integrate(part),
@@ -202,6 +210,20 @@ impl<'a> RayComposer<'a> {
         let intensity = source.intensity(fragment.cell, &corners(fragment.cell), middle, ray.to_eye);
         RgbaAssoc { rgb: light.rgb.map(|channel| channel * intensity), ..light }
     }
+}
+
+/// For every cell whether the plan shows anything of it.
+fn is_shown(plan: &Plan, mesh: &TetMesh, scalars: &[f64]) -> Vec<bool> {
+    let factor = scalar_factor(tetrascope_mesh::scalar_range(mesh.tetrahedra(), scalars));
+    let surfaces = plan.isosurfaces.as_ref().map(|isosurfaces| isosurfaces.surfaces.visible()).unwrap_or_default();
+    let transfer = plan.transfer.with_scalars_scaled(factor);
+    let shown = Shown::new(transfer, plan.model, surfaces.with_scalars_scaled(factor));
+    let shows = |cell: &[VertexId; 4]| {
+        let scalars = cell.map(|v| scalars[v.index()] * factor);
+        let (low, high) = scalars.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), &s| (l.min(s), h.max(s)));
+        shown.shows(low, high)
+    };
+    mesh.tetrahedra().par_iter().map(shows).collect()
 }
 
 impl Ray {
@@ -229,6 +251,7 @@ mod tests {
                 .unwrap(),
             surfaces: Some(Surfaces { set, slack: 0.0 }),
             light: None,
+            is_shown: Vec::new(),
             fans: None,
         };
         let fragments: Vec<Fragment> =

@@ -19,6 +19,9 @@ impl<const PER_LENGTH: bool> Method for Cumulative<PER_LENGTH> {
 
     #[inline(always)]
     fn shade<S: Simd, M: Model>(simd: S, cell: CellOptics<'_>, sample: &Sample<S>) -> Light<S> {
+        if let Some(sharp) = cell.sharp {
+            return sharp.shade(simd, sample);
+        }
         let (zero, one) = (f32x8::splat(simd, 0.0), f32x8::splat(simd, 1.0));
         let rises = sample.front.simd_le(sample.back);
         let low = sample.front.min(sample.back);

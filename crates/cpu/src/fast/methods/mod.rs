@@ -36,7 +36,7 @@ pub(crate) struct CellOptics<'a> {
     pub(crate) fan: Option<&'a Fan>,
     /// The table, where the method has one.
     pub(crate) table: Option<CellTable<'a>>,
-    /// What the exact method draws in f64 all through.
+    /// What the exact method and running integrals draw in f64 all through.
     pub(crate) sharp: Option<SharpCell<'a>>,
 }
 
