@@ -192,6 +192,9 @@ impl Rays {
     #[must_use]
     pub fn joined(mut self, more: &Self) -> Self {
         let end = self.fragments.len();
+        if self.is_empty() {
+            self.base = more.base;
+        }
         self.starts.truncate(self.pixels.len());
         self.starts.extend(more.starts.iter().map(|start| start + end));
         self.pixels.extend(&more.pixels);

@@ -33,7 +33,7 @@ pub fn scalar_range(tetrahedra: &[[VertexId; 4]], scalars: &[f64]) -> [f64; 2] {
     if low <= high { [low, high] } else { [0.0; 2] }
 }
 
-/// What renderers subtract from the scalars of a field whose values are large against their differences, lowest and highest given: of 1e9 and
+/// What renderers in floats subtract from the scalars of a field whose values are large against their differences, lowest and highest given: of 1e9 and
 /// 1e9 + 1e-3 a sum has lost what a difference keeps. 0 for all other fields.
 ///
 /// Exact: of two numbers of which one is at most twice the other the difference is a float [Sterbenz 1974].

@@ -54,7 +54,9 @@ impl Sharpness {
 
     /// The variation between two scalars, the lower one first.
     pub fn between(&self, low: f64, high: f64) -> f64 {
-        (self.up_to(high) - self.up_to(low)).max(0.0)
+        let variation = self.up_to(high) - self.up_to(low);
+        // Beyond what f64 holds there is no difference: it may be anything.
+        if variation.is_nan() { f64::INFINITY } else { variation.max(0.0) }
     }
 
     fn up_to(&self, scalar: f64) -> f64 {

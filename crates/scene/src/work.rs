@@ -9,7 +9,8 @@ use tetrascope_order::{CycleRemedy, PixelSort};
 pub use fragments::Fragments;
 
 use crate::{
-    Backend, BufferRole, Counts, Gradients, Interpolation, IsosurfaceMethod, Mixing, Plan, Rendered, Shown, Stage,
+    Backend, BufferRole, Counts, Gradients, Interpolation, IsosurfaceMethod, Mixing, Plan, Rendered, Sharpness, Shown,
+    Stage,
 };
 
 /// What a plan asks of its back end on a mesh.
@@ -32,6 +33,8 @@ pub struct Work {
     pub outside: u64,
     /// Whether a visibility order sorts the cells.
     pub sorts_cells: bool,
+    /// Whether the transfer function may change so fast, or cells be so dense, that they are drawn in 64 bits, see [`Sharpness`].
+    pub may_be_sharp: bool,
     /// What pixels sort by themselves.
     pub pixel_sort: PixelSort,
     /// Whether pixels also sort where cells hide one another in rings, should the order find some.
@@ -193,6 +196,13 @@ impl Work {
             transparent: cells - seen.len() as u64,
             outside,
             sorts_cells: !is_reference && plan.order.sorts_cells(),
+            may_be_sharp: plan.backend == Backend::Cpu && {
+                // Local coordinates are at most 1 long, so that no chord is longer than 2.
+                let longest = 2.0 * mesh.frame().scale;
+                let densest = plan.transfer.max_extinction(f64::NEG_INFINITY, f64::INFINITY);
+                Sharpness::new(&plan.transfer, plan.model).may_be_beyond_32_bits(longest)
+                    || Sharpness::is_chord_beyond_32_bits(densest, longest)
+            },
             pixel_sort: if is_reference { PixelSort::All } else { plan.order.pixel_sort() },
             sorts_rings: !is_reference && plan.cycles != CycleRemedy::Report && plan.order.sorts_cells(),
             table,
@@ -264,7 +274,10 @@ impl Work {
         }
         all.push(buffer("points in view", BufferRole::Frame, Bytes::Exact(32 * points)));
         all.push(buffer("outlines", BufferRole::Frame, Bytes::Exact(8 * cells)));
-        all.push(buffer("cells set up", BufferRole::Frame, Bytes::AtMost(128 * self.drawn_at_most())));
+        let record = if self.may_be_sharp { Bytes::About } else { Bytes::AtMost };
+        // With the cell itself where it is drawn in 64 bits; cells at the eye or seen edge-on are few.
+        let bytes = if self.may_be_sharp { 128 + 384 } else { 128 };
+        all.push(buffer("cells set up", BufferRole::Frame, record(bytes * self.drawn_at_most())));
         if self.makes_fans {
             all.push(buffer("fans", BufferRole::Frame, Bytes::About(232 * self.drawn_at_most())));
         }
@@ -275,7 +288,7 @@ impl Work {
             all.push(buffer("effects of cells", BufferRole::Frame, bytes));
         }
         // Tiles, and the picture.
-        all.push(buffer("picture", BufferRole::Frame, Bytes::About((20 + 16) * self.pixels)));
+        all.push(buffer("picture", BufferRole::Frame, Bytes::About((24 + 16) * self.pixels)));
         all
     }
 

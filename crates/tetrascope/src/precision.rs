@@ -3,7 +3,7 @@
 use glam::DVec3;
 use rayon::prelude::*;
 use tetrascope_integrate::Integration;
-use tetrascope_scene::{Backend, Plan, Sharpness, TargetBits};
+use tetrascope_scene::{Backend, Interpolation, Plan, Sharpness, TargetBits};
 
 use crate::VolumeField;
 
@@ -19,19 +19,20 @@ const THIN: f64 = 1e-7;
 impl VolumeField<'_> {
     /// Where the picture of a plan is less right than usual because of the numbers that its back end computes with: sentences for people.
     ///
-    /// The CPU draws cells in which the transfer function changes faster than 32 bits know a scalar in 64 bits, unless they have isosurfaces
-    /// or are lit; a GPU has no such numbers.
+    /// The CPU draws cells in which the transfer function changes faster than 32 bits know a scalar in 64 bits, unless the scene has isosurfaces
+    /// or light, or asks for segments by triangles; a GPU has no such numbers.
     pub fn precision_warnings(&self, plan: &Plan) -> Vec<String> {
         let mut warnings = Vec::new();
-        let has_effects = plan.isosurfaces.is_some() || plan.lighting.is_some();
-        let is_in_32_bits = plan.backend == Backend::Gpu || (plan.backend == Backend::Cpu && has_effects);
-        if is_in_32_bits && plan.integration == Integration::Exact {
+        let is_cut_in_32_bits =
+            plan.isosurfaces.is_some() || plan.lighting.is_some() || plan.interpolation != Interpolation::Exact;
+        let is_in_32_bits = plan.backend == Backend::Gpu || (plan.backend == Backend::Cpu && is_cut_in_32_bits);
+        if is_in_32_bits && matches!(plan.integration, Integration::Exact | Integration::Cumulative) {
             let cells = self.cells_beyond_32_bits(plan);
             if cells > 0 {
                 warnings.push(format!(
                     "in {cells} tetrahedra the transfer function changes faster than 32-bit scalars can tell, and narrow peaks may be missed there; the back \
                      end \"reference\"{} is right",
-                    if has_effects { "" } else { ", and \"cpu\"," }
+                    if is_cut_in_32_bits { "" } else { ", and \"cpu\"," }
                 ));
             }
         }

@@ -50,7 +50,7 @@ pub(crate) struct Held {
 #[derive(Debug, Default)]
 struct Segments {
     places: Vec<Place>,
-    /// Linear premultiplied red, green and blue, and the transmittance.
+    /// Linear premultiplied red, green and blue, and the opacity.
     lights: Vec<[f32; 4]>,
 }
 

@@ -67,7 +67,7 @@ use record::{CellRecord, Records};
 use setup::SetUp;
 use survey::Sorting;
 
-/// Pixels a side of a tile: color, transmittance and ray of its pixels take 20 KiB, which leaves room in a first-level cache.
+/// Pixels a side of a tile: color, opacity, transmittance and ray of its pixels take 24 KiB, which leaves room in a first-level cache.
 const TILE_SIDE: u32 = 32;
 
 /// Cells that one task sets up: enough to hide its start, few enough to spread over the cores.
@@ -276,7 +276,9 @@ impl CpuRenderer {
         // Local coordinates are at most 1 long, so that no chord is longer than 2.
         let longest_chord = 2.0 * self.frame.scale * longest_depth / space.world_per_depth;
         let densest = optics.transfer().max_extinction(f64::NEG_INFINITY, f64::INFINITY);
-        let is_sharp = plan.interpolation == Interpolation::Exact
+        // Where there are isosurfaces or light, segments are cut in f32.
+        let is_sharp = effects.is_none()
+            && plan.interpolation == Interpolation::Exact
             && (optics.sharpness().may_be_beyond_32_bits(longest_chord)
                 || (plan.model.needs_extinction() && Sharpness::is_chord_beyond_32_bits(densest, longest_chord)));
         let sharp = if is_sharp { sharp::integrator(plan.integration, &optics) } else { None };

@@ -153,7 +153,7 @@ impl Optics {
     }
 }
 
-/// What is more than this is opaque however short a chord is, and white however thin.
+/// An extinction of more than this is opaque however short a chord is; brighter light than this has no picture.
 const MOST: f64 = 1e30;
 
 /// To f32, so far from infinite that sums and products with scalars and lengths are finite too: times zero, infinity would be NaN.

@@ -25,6 +25,7 @@ const NEAR: f64 = 1e-2;
 
 /// A cell that reaches beyond this many pictures to any side is drawn in f64.
 const MAGNIFIED: f64 = 64.0;
+
 /// A cell whose volume is less than this share of that of its three edges at a right angle is drawn as the reference draws it: corners are known to
 /// 1e-16 of their distance, and where three of them are in line the face has no normal.
 const FLAT: f64 = 1e-9;

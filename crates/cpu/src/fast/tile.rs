@@ -61,9 +61,9 @@ pub(crate) struct Block {
     stretch: [f32; LANES],
 }
 
-/// Cells of a tile from which on its pixels keep what rounding takes off: thousands of layers of a regular grid are nearly equal and would all round the
-/// same way, by 4e-5 in 20,000 of them. Below this it is 1e-5 at most, and not worth the time.
-const DEEP: usize = 4096;
+/// Cells that a block has seen from which on it keeps what rounding takes off: thousands of layers of a regular grid are nearly equal and would all round
+/// the same way, by 4e-5 in 20,000 of them. Below this it is 5e-6 at most, and not worth the time.
+const DEEP: u16 = 2048;
 
 /// What rounding has taken off the sums of a block.
 #[derive(Clone, Copy, Debug)]
@@ -78,7 +78,9 @@ struct Lost {
 #[derive(Debug, Default)]
 pub(crate) struct Pixels {
     blocks: Vec<Block>,
-    /// One a block in a tile of very many cells, else none.
+    /// Cells that each block has seen, up to [`DEEP`], in a tile that has more of them; else none.
+    seen: Vec<u16>,
+    /// One a block, likewise.
     lost: Vec<Lost>,
     /// One a block where there are isosurfaces or light, else none.
     joints: Vec<Joint>,
@@ -114,15 +116,17 @@ pub(crate) struct Done {
 impl Pixels {
     /// Clears the pixels for a tile.
     #[inline(always)]
-    fn reset<S: Simd>(&mut self, simd: S, tile: Tile, space: &PixelSpace, [with_effects, is_deep]: [bool; 2]) {
+    fn reset<S: Simd>(&mut self, simd: S, tile: Tile, space: &PixelSpace, [with_effects, may_be_deep]: [bool; 2]) {
         let (columns, rows) = (tile.width.div_ceil(BLOCK_WIDTH), tile.height.div_ceil(BLOCK_HEIGHT));
         let [none, whole] = [[0.0; LANES], [1.0; LANES]];
         let nothing = Block { rgb: [none; 3], opacity: none, transmittance: whole, stretch: whole };
         self.columns = columns;
         self.blocks.clear();
         self.blocks.resize((columns * rows) as usize, nothing);
+        self.seen.clear();
         self.lost.clear();
-        if is_deep {
+        if may_be_deep {
+            self.seen.resize(self.blocks.len(), 0);
             self.lost.resize(self.blocks.len(), Lost { rgb: [none; 3], opacity: none, transmittance: none });
         }
         self.joints.clear();
@@ -156,6 +160,17 @@ impl Pixels {
             rows: last_row - row + 1,
             stride: self.columns,
         }
+    }
+
+    /// Where a block keeps what rounding takes off, once it has seen so much that this counts.
+    #[inline(always)]
+    fn lost<'a>(seen: &mut [u16], lost: &'a mut [Lost], number: usize) -> Option<&'a mut Lost> {
+        let seen = seen.get_mut(number)?;
+        if *seen < DEEP {
+            *seen += 1;
+            return None;
+        }
+        lost.get_mut(number)
     }
 
     /// Number of blocks.
@@ -213,8 +228,8 @@ impl Job<'_> {
     #[inline(always)]
     fn draw_tile<S: Simd, I: Method, M: Model>(&self, simd: S, index: usize, pixels: &mut Pixels) -> Done {
         let tile = self.grid.tile(index);
-        let is_deep = self.bins.iter().map(|bins| bins.of(index).len()).sum::<usize>() >= DEEP;
-        pixels.reset(simd, tile, self.space, [self.effects.is_some(), is_deep]);
+        let cells: usize = self.bins.iter().map(|bins| bins.of(index).len()).sum();
+        pixels.reset(simd, tile, self.space, [self.effects.is_some(), cells > usize::from(DEEP)]);
         let mut covers = CoverList::new();
         let held = self.sorting.as_ref().and_then(|sorting| self.survey(simd, sorting, index, pixels, &mut covers));
         let mut canvas = Canvas { tile, pixels, covers, held, done: Done::default() };
@@ -364,7 +379,10 @@ impl Brush<'_> {
             let light = I::shade::<S, M>(simd, self.cell, &sample);
             match held {
                 Some(held) => held.push(simd, number, &sample, &light),
-                None => block.add(simd, before, light, M::EMITS, M::ABSORBS, pixels.lost.get_mut(number)),
+                None => {
+                    let lost = Pixels::lost(&mut pixels.seen, &mut pixels.lost, number);
+                    block.add(simd, before, light, M::EMITS, M::ABSORBS, lost);
+                }
             }
             return;
         };
@@ -375,7 +393,10 @@ impl Brush<'_> {
         done.lit += if with_effects.lamp.is_some() { covered } else { 0 };
         match held {
             Some(held) => held.push(simd, number, &sample, &light),
-            None => block.add(simd, before, light, true, true, pixels.lost.get_mut(number)),
+            None => {
+                let lost = Pixels::lost(&mut pixels.seen, &mut pixels.lost, number);
+                block.add(simd, before, light, true, true, lost);
+            }
         }
     }
 }
