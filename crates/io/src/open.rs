@@ -55,6 +55,11 @@ pub fn read_mesh(path: &Path, solution: Option<&Path>) -> Result<Loaded, IoError
     Ok(loaded)
 }
 
+/// Length of a file in bytes; 0 for what cannot be looked at, which reading will say.
+pub fn file_length(path: &Path) -> u64 {
+    std::fs::metadata(path).map_or(0, |metadata| metadata.len())
+}
+
 /// All bytes of a regular file that is not empty.
 pub(crate) fn read_whole(path: &Path) -> Result<Vec<u8>, IoError> {
     let failed = |source| IoError::Read { path: path.to_owned(), source };

@@ -6,7 +6,7 @@ use std::time::{Duration, Instant};
 
 use tetrascope_cpu::{CpuRenderer, reference};
 use tetrascope_gpu::GpuError;
-use tetrascope_io::read_mesh;
+use tetrascope_io::{file_length, read_mesh};
 use tetrascope_mesh::{Cells, Dataset, Decomposition, StructuredBlock, decompose};
 use tetrascope_scene::{
     ArraySummary, Backend, Field, FieldOnMesh, MeshFacts, Plan, Progress, Rendered, Stage, Work, place_on_mesh,
@@ -60,8 +60,7 @@ impl Volume {
         }
         let start = Instant::now();
         // What cannot be looked at is the reader's to tell.
-        let bytes_of = |path: &Path| std::fs::metadata(path).map_or(0, |metadata| metadata.len());
-        memory::check_file(bytes_of(path) + solution.map_or(0, bytes_of))
+        memory::check_file(file_length(path) + solution.map_or(0, file_length))
             .map_err(|error| Error::MeshMemory { source_name: path.display().to_string(), error })?;
         let loaded = read_mesh(path, solution)?;
         let read = start.elapsed();

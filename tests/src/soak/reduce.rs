@@ -104,7 +104,9 @@ impl Search<'_> {
 
     fn fewer_effects(&mut self) {
         for index in (0..self.best.scene.isosurface.len()).rev() {
-            self.change(|case| drop(case.scene.isosurface.remove(index)));
+            self.change(|case| {
+                case.scene.isosurface.remove(index);
+            });
         }
         if self.best.scene.light.is_some() {
             self.change(|case| case.scene.light = None);
