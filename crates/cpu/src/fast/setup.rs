@@ -23,19 +23,13 @@ const STEEP: f64 = 256.0;
 /// A cell whose nearest point is closer than this share of its farthest is drawn in f64: it reaches the plane of the eye, or nearly.
 const NEAR: f64 = 1e-2;
 
-<<<<<<< HEAD
 /// A cell that reaches beyond this many pictures to any side is drawn in f64.
 const MAGNIFIED: f64 = 64.0;
 
-/// A cell whose volume is less than this share of that of its three edges at a right angle is drawn as the reference draws it: corners are known to
-/// 1e-16 of their distance, and where three of them are in line the face has no normal.
-const FLAT: f64 = 1e-9;
-=======
 /// A cell whose volume is less than this share of that of its three edges at a right angle is drawn as the reference draws it: the planes of its faces
 /// lie so near to one another that f32 finds chords where there are none, as long as 1e-7 of its longest edge, and where three corners are in line, a
 /// face has no normal.
 const FLAT: f64 = 1e-6;
->>>>>>> soak
 
 /// Cells that are fetched together before they are set up.
 const BATCH: usize = 32;
