@@ -37,8 +37,8 @@ Examples:
   tetrascope compare a.exr b.exr           how far two pictures are apart
 
 Exit codes: 0 good, 1 wrong input or no room (disk, memory), 2 wrong usage, 3 pictures differ by more than a threshold, 130 interrupted by
-Ctrl-C, 143 by the system's request to end. Files are written whole or not at all, and what they replace stays until then; a second Ctrl-C ends
-at once.";
+Ctrl-C, 143 by the system's request to end, 129 by a closed terminal. Files are written whole or not at all, and what they replace stays
+until then; a second Ctrl-C ends at once.";
 
 #[derive(Debug, Subcommand)]
 pub(crate) enum Command {

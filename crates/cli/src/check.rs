@@ -30,6 +30,7 @@ const ORDERS: [OrderMethod; 5] = [
 pub(crate) fn run(args: &CheckArgs) -> Result<(), Failure> {
     if let Some(map) = &args.map {
         check_target(map, &["png"], "maps")?;
+        maps_of(args, map).iter().for_each(|path| interrupt::will_write(path));
     }
     let bar = Bar::new(false);
     let done = check(args, &bar);
@@ -81,7 +82,7 @@ fn check(args: &CheckArgs, bar: &Bar) -> Result<Value, Failure> {
         plan.cycles = CycleRemedy::Report;
         // Two pictures that are compared, and where they differ.
         let pixels = u64::from(plan.view.width) * u64::from(plan.view.height);
-        field.check_memory(&plan, &[("reference", 48 * pixels)])?;
+        field.check_memory(&plan, &[("pictures compared", 48 * pixels)])?;
         bar.step("relations between cells");
         let relations = field.relations(&plan)?;
         interrupt::go_on()?;
@@ -197,10 +198,18 @@ fn name_of_map(path: &Path, view: Option<usize>, order: Option<&str>) -> PathBuf
     path.with_file_name(name)
 }
 
+/// All maps that there may be: whether heights are known is not known yet, and an order's name does not depend on it.
+fn maps_of(args: &CheckArgs, path: &Path) -> Vec<PathBuf> {
+    let orders = orders_of(args, true, &mut Vec::new());
+    let views: Vec<_> = if args.view.len() > 1 { (0..args.view.len()).map(Some).collect() } else { vec![None] };
+    let name_in = |order| (orders.len() > 1).then(|| name_in_maps(order, &orders));
+    let name = |view| orders.iter().map(move |&order| name_of_map(path, view, name_in(order).as_deref()));
+    views.into_iter().flat_map(name).collect()
+}
+
 fn write_map(path: &Path, order: &OrderCheck, plan: &Plan) -> Result<PathBuf, Failure> {
     let pixels: &PixelDifference = &order.pixels;
     let map = pixels.map(plan.view.width).ok_or_else(|| Failure::Input("the map has no pixels".to_owned()))?;
-    interrupt::will_write(path);
     write_png(path, &map, [0.0; 3]).map_err(tetrascope::Error::Io)?;
     interrupt::wrote(path);
     Ok(path.to_owned())

@@ -1,7 +1,9 @@
 //! Ctrl-C, and the system's request to end.
 //!
-//! The first signal ends all writing ([`end_writing`]) and asks the work to stop, which it does between two tiles, frames or steps; what does not
+//! The first signal asks the work to stop, which it does between two tiles, frames or steps, and ends all writing ([`end_writing`]); what does not
 //! ask is ended after [`PATIENCE`]. A second signal ends at once. No file is half-written in any of these: files are renamed when they are complete.
+//!
+//! Whoever takes signals waits for nothing: disks, terminals and locks may hang, and it is then that somebody wants the program to end.
 
 use std::io;
 use std::path::{Path, PathBuf};
@@ -10,6 +12,8 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::time::Duration;
 
 use indicatif::ProgressBar;
+#[cfg(unix)]
+use signal_hook::consts::SIGHUP;
 use signal_hook::consts::{SIGINT, SIGTERM};
 use tetrascope::end_writing;
 
@@ -17,6 +21,9 @@ use crate::{Failure, report};
 
 /// How long the work may take to stop by itself: far more than a tile takes, and as long as somebody at a terminal waits without a second Ctrl-C.
 const PATIENCE: Duration = Duration::from_secs(1);
+
+/// How long the last line may take: a terminal may be stopped, and a pipe full.
+const WORDS: Duration = Duration::from_secs(1);
 
 /// The first signal; 0 as long as there was none.
 static SIGNAL: AtomicI32 = AtomicI32::new(0);
@@ -49,7 +56,7 @@ pub(crate) fn watch() -> io::Result<()> {
         // A limit on the size of files is an error of whoever writes one, as a full disk is.
         let unread = std::sync::Arc::default();
         signal_hook::flag::register(signal_hook::consts::SIGXFSZ, unread)?;
-        let mut signals = signal_hook::iterator::Signals::new([SIGINT, SIGTERM])?;
+        let mut signals = signal_hook::iterator::Signals::new(watched(ignored()))?;
         std::thread::Builder::new().name("signals".to_owned()).spawn(move || signals.forever().for_each(take))?;
     }
     #[cfg(not(unix))]
@@ -73,25 +80,52 @@ pub(crate) fn watch() -> io::Result<()> {
     Ok(())
 }
 
+/// The signals that are waited for, given those that are ignored, a bit each from the lowest on; `None` where nobody says.
+///
+/// What whoever started the program wants ignored stays so: the closed terminal after `nohup`, Ctrl-C in a script's background. Where that is not known,
+/// a closed terminal ends the program as it ends any.
+#[cfg(unix)]
+fn watched(ignored: Option<u64>) -> Vec<i32> {
+    let is_ignored = |signal: i32| ignored.map_or(signal == SIGHUP, |mask| mask >> (signal - 1) & 1 == 1);
+    [SIGINT, SIGTERM, SIGHUP].into_iter().filter(|&signal| !is_ignored(signal)).collect()
+}
+
+/// Signals that this process was started to ignore.
+#[cfg(unix)]
+fn ignored() -> Option<u64> {
+    let status = std::fs::read_to_string("/proc/self/status").ok()?;
+    let mask = status.lines().find_map(|line| line.strip_prefix("SigIgn:"))?;
+    u64::from_str_radix(mask.trim(), 16).ok()
+}
+
 /// What one signal does.
 fn take(signal: i32) {
     if SIGNAL.compare_exchange(0, signal, Ordering::SeqCst, Ordering::SeqCst).is_err() {
         end_now();
     }
-    end_writing();
     let wait = || {
         std::thread::sleep(PATIENCE);
         end_now();
     };
-    // With no thread to be had nobody waits.
-    if std::thread::Builder::new().name("patience".to_owned()).spawn(wait).is_err() {
+    let start = |name: &str, work: fn()| std::thread::Builder::new().name(name.to_owned()).spawn(work).is_ok();
+    // With no thread to be had nobody waits. A file that is being put in its place may take long on a disk far away.
+    if !start("patience", wait) || !start("end of writing", end_writing) {
         end_now();
     }
 }
 
 /// Ends the process under whatever is still at work.
 fn end_now() -> ! {
-    say();
+    let (said, is_said) = std::sync::mpsc::channel();
+    let speak = move || {
+        say();
+        // Nobody listens any more if it took too long.
+        let _ = said.send(());
+    };
+    if std::thread::Builder::new().name("last words".to_owned()).spawn(speak).is_ok() {
+        // Said or not, it ends.
+        let _ = is_said.recv_timeout(WORDS);
+    }
     // Nothing that runs at a regular exit may wait for the work, a driver's least of all.
     signal_hook::low_level::exit(128 + SIGNAL.load(Ordering::SeqCst))
 }
@@ -109,7 +143,7 @@ pub(crate) fn go_on() -> Result<(), Failure> {
     if is_stopped() { Err(Failure::Interrupted) } else { Ok(()) }
 }
 
-/// The exit code after a signal: 130 for Ctrl-C, 143 for the request to end. `None` without one.
+/// The exit code after a signal: 130 for Ctrl-C, 143 for the request to end, 129 for a closed terminal. `None` without one.
 pub(crate) fn exit_code() -> Option<u8> {
     let signal = SIGNAL.load(Ordering::SeqCst);
     (signal != 0).then(|| u8::try_from(128 + signal).unwrap_or(130))
@@ -134,7 +168,11 @@ pub(crate) fn will_replace(what: String) {
 
 /// A file that is written.
 pub(crate) fn wrote(path: &Path) {
-    let name = path.display().to_string();
+    has_replaced(path.display().to_string());
+}
+
+/// Something that is written, and called as in [`will_replace`].
+pub(crate) fn has_replaced(name: String) {
     let mut state = state();
     state.kept.retain(|kept| *kept != name);
     state.written.push(name);
@@ -191,6 +229,16 @@ fn list(names: &[String]) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[cfg(unix)]
+    #[test]
+    fn signals_that_were_ignored_stay_so() {
+        let mask = |signal: i32| 1 << (signal - 1);
+        assert_eq!(watched(Some(0)), [SIGINT, SIGTERM, SIGHUP]);
+        assert_eq!(watched(Some(mask(SIGHUP))), [SIGINT, SIGTERM]);
+        assert_eq!(watched(Some(mask(SIGINT))), [SIGTERM, SIGHUP]);
+        assert_eq!(watched(None), [SIGINT, SIGTERM]);
+    }
 
     #[test]
     fn the_last_line_says_what_became_of_the_files() {

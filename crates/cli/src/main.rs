@@ -1,8 +1,8 @@
 //! The program `tetrascope`: draws unstructured meshes as volumes.
 //!
 //! Reports go to standard output, warnings, errors and the progress bar to standard error. Exit codes: 0 good, 1 wrong input,
-//! 2 wrong usage, 3 pictures differ by more than a threshold, 130 interrupted by Ctrl-C, 143 by the system's request to end. Files
-//! are written whole or not at all, whatever ends the program.
+//! 2 wrong usage, 3 pictures differ by more than a threshold, 130 interrupted by Ctrl-C, 143 by the system's request to end, 129 by a
+//! closed terminal. Files are written whole or not at all, whatever ends the program.
 
 mod args;
 mod check;

@@ -22,16 +22,18 @@ pub(crate) fn run(args: &StudyArgs) -> Result<(), Failure> {
     let missing: Vec<&Path> = args.output.ancestors().take_while(|folder| !is_there(folder)).collect();
     missing.into_iter().rev().for_each(interrupt::made_folder);
     make_folder(&args.output).map_err(tetrascope::Error::Io)?;
-    check_writable(&args.output.join("study.html")).map_err(tetrascope::Error::Io)?;
-    if args.output.join("study.html").exists() {
-        interrupt::will_replace(format!("the study in {}", args.output.display()));
+    let name = format!("the study in {}", args.output.display());
+    if ["study.csv", "study.json", "study.svg", "study.html"].iter().any(|file| args.output.join(file).exists()) {
+        interrupt::will_replace(name.clone());
     }
+    check_writable(&args.output.join("study.html")).map_err(tetrascope::Error::Io)?;
     let bar = Bar::new(false);
     let done = study(args, &bar);
     bar.clear();
     let study = done?;
     interrupt::go_on()?;
     let paths = study.write(&args.output).map_err(failure)?;
+    interrupt::has_replaced(name);
     if args.json {
         let files: Vec<Value> = paths.iter().map(|path| json!(path.display().to_string())).collect();
         let mut said = tetrascope_study::json(&study);

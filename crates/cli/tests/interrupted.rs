@@ -6,18 +6,38 @@
 use std::io::{BufRead, BufReader, Read};
 use std::path::Path;
 use std::process::{Child, Command, Stdio};
-use std::time::{Duration, Instant};
+use std::time::{Duration, Instant, SystemTime};
 
 /// A child that does not end is killed after this, and the test fails: no measure of anything.
 const DEADLINE: Duration = Duration::from_secs(120);
 
+/// The program, waiting for all signals even where the tests themselves ignore some, as in a script's background.
+fn program() -> Command {
+    let path = env!("CARGO_BIN_EXE_tetrascope");
+    if !cfg!(target_os = "linux") {
+        return Command::new(path);
+    }
+    let mut command = Command::new("env");
+    command.args(["--default-signal=INT", "--default-signal=TERM", "--default-signal=HUP", path]);
+    command
+}
+
 fn start(folder: &Path, args: &[&str]) -> Child {
-    let mut command = Command::new(env!("CARGO_BIN_EXE_tetrascope"));
+    let mut command = program();
     command.args(args).current_dir(folder).stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap()
 }
 
 fn signal(child: &Child, name: &str) {
     assert!(Command::new("kill").args([name, &child.id().to_string()]).status().unwrap().success());
+}
+
+/// Waits until something is seen.
+fn wait_until(what: &str, mut is_so: impl FnMut() -> bool) {
+    let begin = Instant::now();
+    while !is_so() {
+        assert!(begin.elapsed() < DEADLINE, "{what} never came");
+        std::thread::sleep(Duration::from_millis(5));
+    }
 }
 
 /// Reads the report up to a line that begins so.
@@ -56,7 +76,8 @@ const LONG: [&str; 6] = ["render", "builtin:rings", "--backend", "reference", "-
 
 #[test]
 fn an_interrupted_picture_leaves_the_old_one() {
-    for (name, code) in [("-INT", 130), ("-TERM", 143)] {
+    let closed_terminal = cfg!(target_os = "linux").then_some(("-HUP", 129));
+    for (name, code) in [("-INT", 130), ("-TERM", 143)].into_iter().chain(closed_terminal) {
         let folder = tempfile::tempdir().unwrap();
         std::fs::write(folder.path().join("old.png"), "old").unwrap();
         let mut child = start(folder.path(), &[&LONG[..], &["-o", "old.png", "-o", "new.exr"]].concat());
@@ -105,12 +126,7 @@ fn an_interrupted_study_leaves_the_old_one() {
     let args = ["study", "builtin:rings", "--size", "2000", "-o", "a/b"];
     // Nothing was there: the folders that were made go again.
     let child = start(folder.path(), &args);
-    let begin = Instant::now();
-    while !folder.path().join("a/b").exists() && begin.elapsed() < DEADLINE {
-        std::thread::sleep(Duration::from_millis(20));
-    }
-    // In the reference by now, as a rule.
-    std::thread::sleep(Duration::from_secs(1));
+    wait_until("the folder", || folder.path().join("a/b").exists());
     signal(&child, "-INT");
     assert_eq!(end(child), (Some(130), "interrupted: nothing was written\n".to_owned()));
     assert_eq!(names(folder.path()), Vec::<String>::new());
@@ -120,8 +136,12 @@ fn an_interrupted_study_leaves_the_old_one() {
     for name in ["study.csv", "study.html", "study.json", "study.svg"] {
         std::fs::write(old.join(name), name).unwrap();
     }
+    // That files can be written there is tried before the work.
+    std::fs::File::open(&old).unwrap().set_modified(SystemTime::UNIX_EPOCH).unwrap();
     let child = start(folder.path(), &args);
-    std::thread::sleep(Duration::from_secs(1));
+    wait_until("a file in the folder", || {
+        std::fs::metadata(&old).unwrap().modified().unwrap() != SystemTime::UNIX_EPOCH
+    });
     signal(&child, "-TERM");
     assert_eq!(end(child), (Some(143), "interrupted: nothing was written; the study in a/b is as it was\n".to_owned()));
     assert_eq!(names(&old), ["study.csv", "study.html", "study.json", "study.svg"]);
@@ -140,7 +160,71 @@ fn an_interrupted_check_leaves_the_old_map() {
     signal(&child, "-INT");
     let (code, text) = end(child);
     assert_eq!(code, Some(130), "{text}");
-    assert!(text.ends_with("interrupted: nothing was written\n"), "{text}");
+    assert!(text.ends_with("interrupted: nothing was written; map.png is as it was\n"), "{text}");
     assert_eq!(names(folder.path()), ["map.png"]);
     assert_eq!(std::fs::read(folder.path().join("map.png")).unwrap(), b"old");
+}
+
+/// A pipe or a terminal that takes nothing: work that does not ask whether it is to go on, and words that cannot be said.
+#[cfg(target_os = "linux")]
+mod blocked {
+    use super::*;
+    use std::io::Write;
+    use std::os::fd::OwnedFd;
+    use std::os::unix::net::UnixStream;
+
+    /// Where writing waits for ever, and the reader that has to live as long.
+    fn full() -> (UnixStream, UnixStream) {
+        let (mut writer, reader) = UnixStream::pair().unwrap();
+        writer.set_nonblocking(true).unwrap();
+        while writer.write(&[b'.'; 1]).is_ok() {}
+        writer.set_nonblocking(false).unwrap();
+        (writer, reader)
+    }
+
+    /// Whether a signal is caught, Ctrl-C being 2.
+    fn catches(child: &Child, signal: u32) -> bool {
+        let status = std::fs::read_to_string(format!("/proc/{}/status", child.id())).unwrap();
+        let mask = status.lines().find_map(|line| line.strip_prefix("SigCgt:")).unwrap();
+        u64::from_str_radix(mask.trim(), 16).unwrap() >> (signal - 1) & 1 == 1
+    }
+
+    #[test]
+    fn what_does_not_ask_is_ended() {
+        for signals in 1..=2 {
+            let (writer, _reader) = full();
+            let mut command = program();
+            command.args(["info", "builtin:rings"]).stdout(OwnedFd::from(writer)).stderr(Stdio::piped());
+            let child = command.spawn().unwrap();
+            wait_until("the watch for signals", || catches(&child, 2));
+            (0..signals).for_each(|_| signal(&child, "-INT"));
+            assert_eq!(end(child), (Some(130), "interrupted: nothing was written\n".to_owned()), "{signals} signals");
+        }
+    }
+
+    #[test]
+    fn the_last_line_is_not_waited_for() {
+        let (output, _reader) = full();
+        let (errors, _reader_of_errors) = full();
+        let mut command = program();
+        command.args(["info", "builtin:rings"]).stdout(OwnedFd::from(output)).stderr(OwnedFd::from(errors));
+        let mut child = command.spawn().unwrap();
+        wait_until("the watch for signals", || catches(&child, 2));
+        signal(&child, "-INT");
+        wait_until("the end", || child.try_wait().unwrap().is_some());
+        assert_eq!(child.wait().unwrap().code(), Some(130));
+    }
+
+    #[test]
+    fn signals_that_were_ignored_stay_ignored() {
+        let folder = tempfile::tempdir().unwrap();
+        let mut command = Command::new("sh");
+        command.args(["-c", "trap '' INT HUP; exec \"$0\" \"$@\"", env!("CARGO_BIN_EXE_tetrascope")]);
+        command.args(LONG).args(["-o", "a.png"]).current_dir(folder.path());
+        let mut child = command.stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
+        wait_for(&mut child, "backend");
+        assert!(!catches(&child, 1) && !catches(&child, 2) && catches(&child, 15));
+        signal(&child, "-TERM");
+        assert_eq!(end(child).0, Some(143));
+    }
 }

@@ -47,7 +47,12 @@ pub enum IoError {
         remedy: &'static str,
     },
     /// The memory that a file takes on its way out is not there; nothing was written.
-    #[error("{}: cannot be written: that takes {bytes} bytes, more memory than the system gives; free some memory", path.display())]
+    #[error(
+        "{}: cannot be written: that takes {} MiB, more memory than the system gives; ask for a smaller picture (image.width and \
+         image.height), or free some memory",
+        path.display(),
+        .bytes.div_ceil(1 << 20)
+    )]
     Memory {
         /// The file.
         path: PathBuf,

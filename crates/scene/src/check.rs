@@ -4,7 +4,7 @@ use tetrascope_integrate::Integration;
 use tetrascope_mesh::TetMesh;
 use tetrascope_order::{CycleRemedy, PixelSort};
 
-use crate::{GpuPath, Interpolation, IsosurfaceMethod, Mixing, Plan};
+use crate::{GpuPath, Interpolation, IsosurfaceMethod, Mixing, Plan, memory_text};
 
 /// Why a plan is not drawn, whichever back end is asked.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -14,7 +14,10 @@ pub enum PlanError {
     #[error("interrupted; there is no picture")]
     Interrupted,
     /// The memory that the system gives is at its end.
-    #[error("{what} takes {} bytes, more memory than the system gives; ask for a smaller one, or free some memory", .bytes)]
+    #[error(
+        "{what} takes {}, more memory than the system gives; ask for a smaller one (image.width and image.height), or free some memory",
+        memory_text(*.bytes)
+    )]
     Memory {
         /// What it was wanted for.
         what: &'static str,

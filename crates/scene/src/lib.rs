@@ -82,7 +82,7 @@ pub use rendered::{BufferRole, Counts, DeviceBuffer, DeviceReport, OrderReport, 
 pub use scene::Scene;
 pub use sharpness::Sharpness;
 pub use shown::{Shown, surfaces_near};
-pub use text::{rough, short};
+pub use text::{memory_text, rough, short};
 pub use work::{Bytes, Fragments, MapWork, TableWork, Work, WorkBuffer};
 
 #[cfg(all(test, feature = "file"))]

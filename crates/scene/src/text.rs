@@ -34,9 +34,24 @@ pub fn short(value: f64) -> String {
     }
 }
 
+/// Memory in GiB or MiB with one decimal, for messages: `"1.5 GiB"`.
+pub fn memory_text(bytes: u64) -> String {
+    const MIB: f64 = 1048576.0;
+    let (number, unit) =
+        if bytes >= 1 << 30 { (bytes as f64 / (1024.0 * MIB), "GiB") } else { (bytes as f64 / MIB, "MiB") };
+    format!("{} {unit}", short((number * 10.0).round() / 10.0))
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn memory_is_told_in_the_unit_that_people_read() {
+        for (bytes, text) in [(0, "0 MiB"), (3 << 19, "1.5 MiB"), (1 << 30, "1 GiB"), (17 << 30, "17 GiB")] {
+            assert_eq!(memory_text(bytes), text);
+        }
+    }
 
     #[test]
     fn errors_have_two_digits() {

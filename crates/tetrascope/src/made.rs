@@ -1,5 +1,6 @@
 //! What is learned of a field and its mesh, and the renderers that draw it: each made when first asked for.
 
+use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
 use tetrascope_cpu::CpuRenderer;
@@ -16,7 +17,26 @@ pub(crate) struct Made {
     /// Points of each cell in ascending order, as renderers have them; only where no CPU renderer has the same.
     ascending: OnceLock<Vec<[VertexId; 4]>>,
     cpu: OnceLock<CpuRenderer>,
+    /// Cells of the largest picture that this renderer drew.
+    drawn: AtomicU64,
     devices: Mutex<Vec<Device>>,
+}
+
+impl Made {
+    /// Cells of the largest picture that the CPU's renderer drew, of which it keeps the memory: 0 before the first. `None` without a renderer.
+    pub(crate) fn last_frame(&self) -> Option<u64> {
+        self.cpu.get().map(|_| self.drawn.load(Ordering::Relaxed))
+    }
+
+    /// Such a picture is being drawn: gives what was kept before.
+    pub(crate) fn forget_frame(&self) -> u64 {
+        self.drawn.swap(0, Ordering::Relaxed)
+    }
+
+    /// Such a picture was drawn.
+    pub(crate) fn has_drawn(&self, cells: u64) {
+        self.drawn.fetch_max(cells, Ordering::Relaxed);
+    }
 }
 
 /// What visibility orders know of the mesh.

@@ -1,13 +1,14 @@
 //! Memory that is asked for, held against what the machine has before the work begins.
 
 use sysinfo::{ProcessRefreshKind, ProcessesToUpdate, System, get_current_pid};
-use tetrascope_scene::{Backend, BufferRole, Plan, Work, short};
+use tetrascope_scene::{Backend, BufferRole, IsosurfaceMethod, Plan, Work, memory_text};
 
 use crate::{Error, VolumeField};
 
 /// More memory is asked for than there is; nothing was begun.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("{} of memory are needed ({}), and {}; {}", gib(*.needed), list(.parts), left_of(*.left), remedy_of(.parts))]
+#[non_exhaustive]
+#[error("{} of memory are needed ({}), and {}; {}", memory_text(*.needed), list(.parts), left_of(*.left), remedy_of(.parts))]
 pub struct MemoryError {
     /// What it is needed for, bytes, the largest part first.
     pub parts: Vec<(&'static str, u64)>,
@@ -40,16 +41,70 @@ impl VolumeField<'_> {
     ///
     /// - `more`: what the caller needs besides, bytes by what it is for
     ///
+    /// Counts of cells, points and pixels are enough where there is plenty; only where there may not be enough every cell is looked at. What the CPU's renderer
+    /// of this field holds already, from an earlier picture or an order, is not asked for again.
+    ///
     /// Of a picture on a graphics card only what the host holds is looked at: the device says itself what it cannot hold. Where nobody knows how much memory
     /// is left, only what the system refuses is refused.
     ///
     /// # Errors
     /// [`Error::Memory`], else as [`Self::work`].
     pub fn check_memory(&self, plan: &Plan, more: &[(&'static str, u64)]) -> Result<(), Error> {
+        self.check_memory_within(plan, more, memory_left())
+    }
+
+    fn check_memory_within(&self, plan: &Plan, more: &[(&'static str, u64)], left: Option<u64>) -> Result<(), Error> {
+        let besides = more.iter().fold(0_u64, |sum, (_, bytes)| sum.saturating_add(*bytes));
+        let most = self.never_more(plan).saturating_add(besides);
+        if most <= ALWAYS_THERE || left.is_some_and(|left| most <= left) && is_given(most) {
+            return Ok(());
+        }
         let work = self.work(plan)?;
-        Ok(check(parts_of(&work, more), memory_left(), is_given)?)
+        let mut parts = parts_of(&work, more);
+        self.leave_out_held(&work, &mut parts);
+        Ok(check(parts, left, is_given)?)
+    }
+
+    /// What the host needs for a picture at the very most, bytes, from counts alone: every cell is drawn, as the most costly of all plans has it.
+    fn never_more(&self, plan: &Plan) -> u64 {
+        let [cells, points] = [self.mesh().tetrahedra().len(), self.mesh().positions().len()];
+        let pixels = u64::from(plan.view.width) * u64::from(plan.view.height);
+        let table = plan.table_settings().map_or(0, |table| {
+            u64::from(table.scalars).pow(2).saturating_mul(u64::from(table.lengths.max(1))).saturating_mul(ENTRY)
+        });
+        let maps = match plan.isosurfaces.as_ref().map(|isosurfaces| isosurfaces.method) {
+            Some(IsosurfaceMethod::Map { size, .. }) => 2 * u64::from(size).pow(2) * ENTRY,
+            _ => 0,
+        };
+        let counted = [(cells as u64, A_CELL), (points as u64, A_POINT), (pixels, A_PIXEL)];
+        counted.iter().fold(table.saturating_add(maps), |sum, (count, bytes)| sum.saturating_add(count * bytes))
+    }
+
+    /// Takes off what the CPU's renderer has already: the mesh, and of its last frame what the next one fills again.
+    fn leave_out_held(&self, work: &Work, parts: &mut [(&'static str, u64)]) {
+        let Some(last) = self.made.last_frame().filter(|_| work.backend == Backend::Cpu) else { return };
+        for (label, bytes) in parts {
+            match *label {
+                "cells" | "points" => *bytes = 0,
+                "points in view" | "outlines" if last > 0 => *bytes = 0,
+                // Of a view that shows fewer cells less is kept.
+                "cells set up" if last > 0 => {
+                    let share = last as f64 / work.drawn_at_most().max(1) as f64;
+                    *bytes -= (*bytes as f64 * share.min(1.0)) as u64;
+                }
+                _ => {}
+            }
+        }
     }
 }
+
+/// Bytes of an entry of a table or a map.
+const ENTRY: u64 = 16;
+
+/// Bytes of a cell, of a point and of a pixel that no plan exceeds.
+const A_CELL: u64 = 1024;
+const A_POINT: u64 = 128;
+const A_PIXEL: u64 = 96;
 
 /// What fits into any machine: nobody is asked about it.
 const ALWAYS_THERE: u64 = 64 << 20;
@@ -99,22 +154,15 @@ fn is_given(bytes: u64) -> bool {
     usize::try_from(bytes).is_ok_and(|bytes| Vec::<u8>::new().try_reserve_exact(bytes).is_ok())
 }
 
-fn gib(bytes: u64) -> String {
-    const MIB: f64 = 1048576.0;
-    let (number, unit) =
-        if bytes >= 1 << 30 { (bytes as f64 / (1024.0 * MIB), "GiB") } else { (bytes as f64 / MIB, "MiB") };
-    format!("{} {unit}", short((number * 10.0).round() / 10.0))
-}
-
 fn list(parts: &[(&str, u64)]) -> String {
-    let shown = parts.iter().take(3).map(|(label, bytes)| format!("{label} {}", gib(*bytes)));
+    let shown = parts.iter().take(3).map(|(label, bytes)| format!("{label} {}", memory_text(*bytes)));
     shown.collect::<Vec<_>>().join(", ")
 }
 
 fn left_of(left: Option<u64>) -> String {
     left.map_or_else(
         || "the system does not give them to this process (limits are shown by `ulimit -a`)".to_owned(),
-        |left| format!("{} are left", gib(left)),
+        |left| format!("{} are left", memory_text(left)),
     )
 }
 
@@ -123,14 +171,26 @@ fn remedy_of(parts: &[(&'static str, u64)]) -> &'static str {
     match parts.first().map(|(label, _)| *label) {
         Some("table") => "ask for a smaller table (quality.table_size), or another integration",
         Some("maps of isosurfaces") => "ask for smaller maps (quality.map_size), or isosurfaces by \"exact\"",
-        Some("picture" | "reference" | "files") => "ask for a smaller picture (image.width and image.height)",
+        Some("picture" | "pictures compared" | "files") => "ask for a smaller picture (image.width and image.height)",
+        Some("reference") => {
+            "leave out what is compared with it (--verify, --error-map), or ask for a smaller picture (image.width and image.height)"
+        }
+        Some("fans") => {
+            "use quality.interpolation = \"exact\" and quality.integration = \"exact\", or give a coarser mesh"
+        }
+        Some("effects of cells") => "leave out the light and the isosurfaces, or give a coarser mesh",
         _ => "free some memory, or give a coarser mesh",
     }
 }
 
 #[cfg(test)]
 mod tests {
+    use tetrascope_integrate::Integration;
+    use tetrascope_mesh::rings_sample;
+    use tetrascope_scene::{Interpolation, IsosurfaceSection, Lighting, Mixing, SceneFile, Silent};
+
     use super::*;
+    use crate::Volume;
 
     const GIB: u64 = 1 << 30;
 
@@ -156,5 +216,52 @@ mod tests {
     fn the_system_gives_little_and_not_everything() {
         assert!(is_given(0) && is_given(1 << 20) && !is_given(u64::MAX) && !is_given(1 << 62));
         assert!(memory_left().is_none_or(|left| left > 1 << 20));
+    }
+
+    #[test]
+    fn no_plan_needs_more_than_counts_alone_allow() {
+        let volume = Volume::from_dataset(rings_sample(4), "rings").unwrap();
+        let field = volume.field(None).unwrap();
+        let mut scene = SceneFile::of_mesh(crate::SAMPLE);
+        scene.isosurface.push(IsosurfaceSection::new(0.5, [1.0; 3]));
+        let start = field.plan(&mut scene.complete(&field.facts).unwrap()).unwrap();
+        let lit = Lighting { volume: true, ..Lighting::default() };
+        let map = IsosurfaceMethod::Map { size: 256, mixing: Mixing::Smooth };
+        for change in [
+            &|_: &mut Plan| {},
+            &|plan| plan.lighting = Some(lit),
+            &|plan| (plan.lighting, plan.interpolation) = (Some(lit), Interpolation::Perspective),
+            &|plan| plan.integration = Integration::Table2d,
+            &|plan| plan.integration = Integration::Table3d,
+            &|plan| plan.backend = Backend::Reference,
+            &|plan| plan.isosurfaces.iter_mut().for_each(|isosurfaces| isosurfaces.method = map),
+        ] as [&dyn Fn(&mut Plan); 7]
+        {
+            let mut plan = start.clone();
+            change(&mut plan);
+            let work = field.work(&plan).unwrap();
+            let foreseen: u64 = work.buffers.iter().map(|buffer| buffer.bytes.number()).sum();
+            let most = field.never_more(&plan);
+            assert!(foreseen <= most, "{foreseen} {most} {:?}", work.buffers);
+        }
+    }
+
+    #[test]
+    fn what_is_held_is_not_asked_for_again() {
+        let volume = Volume::from_dataset(rings_sample(12), "rings").unwrap();
+        let field = volume.field(None).unwrap();
+        let mut scene = SceneFile::of_mesh(crate::SAMPLE);
+        (scene.image.width, scene.image.height) = (16, 16);
+        let plan = field.plan(&mut scene.complete(&field.facts).unwrap()).unwrap();
+        // More than nobody is asked about.
+        let more = [("files", ALWAYS_THERE)];
+        let needed = parts_of(&field.work(&plan).unwrap(), &more).iter().map(|(_, bytes)| bytes).sum::<u64>();
+        let fresh = volume.field(None).unwrap();
+        assert!(fresh.check_memory_within(&plan, &more, Some(needed)).is_ok());
+        assert!(fresh.check_memory_within(&plan, &more, Some(needed - 1)).is_err());
+        field.render(&plan, &Silent).unwrap();
+        assert!(field.check_memory_within(&plan, &more, Some(needed - 1)).is_ok());
+        let pixels_alone = ALWAYS_THERE + 16 * 16 * 36;
+        assert!(field.check_memory_within(&plan, &more, Some(pixels_alone)).is_err());
     }
 }

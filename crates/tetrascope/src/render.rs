@@ -55,7 +55,7 @@ pub fn render_scene(scene: &SceneFile, base_dir: &Path, progress: &dyn Progress)
 /// Draws a mesh that is in memory; the scene's `mesh.path` is not looked at.
 ///
 /// # Errors
-/// [`Error`], from whichever step failed.
+/// [`Error`], from whichever step failed; [`Error::Memory`] before anything is drawn where the picture needs more memory than is left.
 pub fn render_volume(volume: &Volume, scene: &SceneFile, progress: &dyn Progress) -> Result<Picture, Error> {
     let field = volume.field(scene.mesh.field.as_deref())?;
     let mut completed = scene.complete(&field.facts)?;

@@ -7,7 +7,7 @@ use std::time::{Duration, Instant};
 use tetrascope_cpu::{CpuRenderer, reference};
 use tetrascope_gpu::GpuError;
 use tetrascope_io::{file_length, read_mesh};
-use tetrascope_mesh::{Cells, Dataset, Decomposition, StructuredBlock, decompose};
+use tetrascope_mesh::{CellKind, Cells, Dataset, Decomposition, StructuredBlock, decompose};
 use tetrascope_scene::{
     ArraySummary, Backend, Field, FieldOnMesh, MeshFacts, Plan, Progress, Rendered, Stage, Work, place_on_mesh,
     select_field, summarize_arrays,
@@ -157,7 +157,11 @@ impl VolumeField<'_> {
             Backend::Cpu => {
                 let renderer = self.renderer_on(plan.threads)?;
                 let prepared = start.elapsed();
-                (renderer.render(plan, progress)?, prepared)
+                // A frame that fails leaves nothing of it.
+                let held = self.made.forget_frame();
+                let rendered = renderer.render(plan, progress)?;
+                self.made.has_drawn(rendered.counts.drawn.max(held));
+                (rendered, prepared)
             }
             Backend::Gpu => {
                 let adapter = plan.gpu.adapter.as_deref();
@@ -196,9 +200,10 @@ impl VolumeField<'_> {
     }
 }
 
+/// Cells that may have a volume.
 fn cell_count(cells: &Cells) -> usize {
     match cells {
-        Cells::Unstructured(cells) => cells.kinds.len(),
+        Cells::Unstructured(cells) => cells.kinds.iter().filter(|kind| **kind != CellKind::Flat).count(),
         Cells::Structured(blocks) => blocks.iter().map(StructuredBlock::cell_count).sum(),
     }
 }

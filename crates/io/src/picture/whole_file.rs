@@ -85,6 +85,9 @@ fn not_written(path: &Path, error: &io::Error) -> IoError {
 }
 
 fn remedy_of(error: &io::Error) -> &'static str {
+    if error.get_ref().is_some_and(|inner| inner.is::<Ended>()) {
+        return "run it again";
+    }
     match error.kind() {
         io::ErrorKind::StorageFull | io::ErrorKind::QuotaExceeded | io::ErrorKind::FileTooLarge => {
             "free some space there, or name another folder"
@@ -99,6 +102,11 @@ pub(super) fn ask_for_memory(path: &Path, bytes: u64) -> Result<(), IoError> {
     asked.ok_or_else(|| IoError::Memory { path: path.to_owned(), bytes })
 }
 
+/// Why nothing is written after [`end_writing`].
+#[derive(Debug, thiserror::Error)]
+#[error("the program was told to end")]
+struct Ended;
+
 /// What [`end_writing`] has to know; held while files come and go, so that it misses none.
 struct Pending {
     paths: Vec<PathBuf>,
@@ -107,7 +115,7 @@ struct Pending {
 
 impl Pending {
     fn refuse_if_ended(&self) -> io::Result<()> {
-        if self.is_ended { Err(io::Error::other("the program was told to end")) } else { Ok(()) }
+        if self.is_ended { Err(io::Error::other(Ended)) } else { Ok(()) }
     }
 }
 
