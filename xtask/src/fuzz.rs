@@ -45,6 +45,9 @@ struct Done {
 }
 
 pub(crate) fn run(args: &Args) -> Result<(), Failure> {
+    if !(args.minutes >= 0.0 && args.minutes <= 1e6) {
+        return Err(format!("--minutes is {}; give a number from 0 to 1000000", args.minutes).into());
+    }
     let reader = build()?;
     let folder = target_folder().join("fuzz");
     fs::create_dir_all(&folder)?;
@@ -54,7 +57,7 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
         return if done.is_good { Ok(()) } else { Err("the file does what must not be".into()) };
     }
     let targets = args.target.map_or(Target::ALL.to_vec(), |target| vec![target]);
-    let end = Instant::now() + Duration::from_secs_f64(60.0 * args.minutes.clamp(0.0, 1e6));
+    let end = Instant::now() + Duration::from_secs_f64(60.0 * args.minutes);
     let mut counts: Vec<[u64; 3]> = vec![[0; 3]; targets.len()];
     let mut failures = Vec::new();
     let mut from = 0;
@@ -90,7 +93,16 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     }
     let total: u64 = counts.iter().map(|count| count[0]).sum();
     println!("{total} files, {} failures", failures.len());
-    if failures.is_empty() { Ok(()) } else { Err(failures.join("\n").into()) }
+    if !failures.is_empty() {
+        return Err(failures.join("\n").into());
+    }
+    // Time was up before their turn came: nothing is known of them.
+    let unread: Vec<&str> =
+        targets.iter().zip(&counts).filter(|(_, [files, ..])| *files == 0).map(|(target, _)| target.name()).collect();
+    if !unread.is_empty() {
+        return Err(format!("no file was read of {}; give more --minutes", unread.join(", ")).into());
+    }
+    Ok(())
 }
 
 /// Builds the program that reads. It is part of this package, so that it shares what was built for this one.

@@ -8,7 +8,7 @@ use tetrascope::mesh::{ArrayValues, CellKind, Cells, DataArray, Dataset, Unstruc
 use tetrascope::view::Ray;
 use tetrascope::{Camera, CameraSection, Projection, ProjectionName, SceneFile, Volume};
 
-use super::judge::{CHORD_LIMITS, CRACK_LIMITS};
+use super::judge::{CHORD_LIMITS, CRACK_LIMITS, LIGHT_LIMITS};
 use crate::chords::boundary_faces;
 use crate::ways::Way;
 
@@ -49,33 +49,62 @@ pub struct HardScene {
     pub scene: SceneFile,
     /// What its pictures are held against.
     pub truth: Truth,
-    /// What the scene's own picture may differ by from the truth in any channel, on the CPU; see [`judge()`](super::judge()).
-    pub within: f64,
-    /// The same for a GPU: its f32 has no f64 beside it.
-    pub within_gpu: f64,
-    /// What chords may differ by, of themselves: on the CPU, on a GPU.
-    pub chord_within: [f64; 2],
-    /// What opacity may differ by from its neighbors' plane, likewise.
-    pub crack_within: [f64; 2],
+    /// What the scene's own picture may differ by from the truth in any channel; see [`judge()`](super::judge()).
+    pub within: Limits,
+    /// What chords may differ by, of themselves.
+    pub chord_within: Limits,
+    /// What opacity may differ by from its neighbors' plane.
+    pub crack_within: Limits,
     /// Who cannot hold this scene, if anybody.
     pub beyond: Option<Beyond>,
     /// Words that the user must be told, where a limit is reached.
     pub says: Option<&'static str>,
+    /// Words of a refusal that is right on a GPU, besides [`CANNOT_SORT`](super::CANNOT_SORT).
+    pub refused: Option<&'static str>,
 }
 
-/// Ways that cannot hold a scene: their pictures must be sound, and the user must be told; their figures are told and not judged.
+/// Limits way by way: the device's f32 has no f64 beside it, and its triangles are blended by rounded products.
+#[derive(Clone, Copy, Debug)]
+pub struct Limits {
+    /// For the CPU, the reference with it.
+    pub cpu: f64,
+    /// For tiles in compute programs.
+    pub compute: f64,
+    /// For blended triangles.
+    pub triangles: f64,
+}
+
+impl Limits {
+    /// The limit of a way.
+    pub fn of(self, way: Way) -> f64 {
+        match way {
+            Way::Cpu | Way::Reference => self.cpu,
+            Way::Compute => self.compute,
+            Way::Triangles => self.triangles,
+        }
+    }
+
+    /// One for the CPU, one for both ways of a GPU.
+    pub const fn of_two(cpu: f64, gpu: f64) -> Self {
+        Self { cpu, compute: gpu, triangles: gpu }
+    }
+}
+
+/// Ways that cannot hold a scene as others do: the user must be told, and light is held to a limit of its own; chords are not judged.
 #[derive(Clone, Copy, Debug)]
 pub struct Beyond {
     /// Those.
     pub ways: &'static [Way],
     /// Words of the warning.
     pub words: &'static str,
+    /// What their light may differ by from the truth in any channel. 1 where nothing is promised but a sound picture.
+    pub within: f64,
 }
 
 impl Beyond {
     /// Both ways of a GPU.
-    pub const fn gpu(words: &'static str) -> Self {
-        Self { ways: &[Way::Compute, Way::Triangles], words }
+    pub const fn gpu(words: &'static str, within: f64) -> Self {
+        Self { ways: &[Way::Compute, Way::Triangles], words, within }
     }
 }
 
@@ -123,20 +152,30 @@ impl HardScene {
             volume: Arc::new(volume),
             scene,
             truth,
-            within: 1e-5,
-            within_gpu: 2e-5,
+            within: LIGHT_LIMITS,
             chord_within: CHORD_LIMITS,
             crack_within: CRACK_LIMITS,
             beyond: None,
             says: None,
+            refused: None,
         }
     }
 }
 
 impl HardScene {
-    /// Whether the figures of a way are held to limits.
+    /// Whether a way is held to the scene's own limits, and not to those of what is [beyond](Self::beyond) it.
     pub fn is_judged(&self, way: Way) -> bool {
-        self.beyond.is_none_or(|beyond| !beyond.ways.contains(&way))
+        self.beyond_of(way).is_none()
+    }
+
+    /// What is beyond a way here, if anything is.
+    pub fn beyond_of(&self, way: Way) -> Option<Beyond> {
+        self.beyond.filter(|beyond| beyond.ways.contains(&way))
+    }
+
+    /// What the light of a way may differ by.
+    pub fn light_within(&self, way: Way) -> f64 {
+        self.beyond_of(way).map_or_else(|| self.within.of(way), |beyond| beyond.within)
     }
 }
 

@@ -20,6 +20,8 @@ pub struct CaseFigures {
     pub beyond: usize,
     /// Scenes that it refuses.
     pub refused: usize,
+    /// Why, in the words that the user reads but for the remedy; each once.
+    pub reasons: Vec<String>,
     /// Chord, crack, light; chord and crack are `None` where no scene has them.
     pub largest: [Option<f64>; 3],
 }
@@ -27,13 +29,17 @@ pub struct CaseFigures {
 impl CaseFigures {
     /// Nothing yet.
     pub fn new(way: Way) -> Self {
-        Self { way, judged: 0, beyond: 0, refused: 0, largest: [None; 3] }
+        Self { way, judged: 0, beyond: 0, refused: 0, reasons: Vec::new(), largest: [None; 3] }
     }
 
     /// Takes a scene's figures.
     pub fn take(&mut self, found: &Finding, is_judged: bool) {
-        if found.refused.is_some() {
+        if let Some(words) = &found.refused {
             self.refused += 1;
+            let reason = words.split(';').next().unwrap_or(words);
+            if !self.reasons.iter().any(|known| known == reason) {
+                self.reasons.push(reason.to_owned());
+            }
         } else if is_judged {
             self.judged += 1;
             for (largest, figure) in self.largest.iter_mut().zip([found.chord, found.crack, Some(found.light)]) {
@@ -56,7 +62,7 @@ impl CaseFigures {
             let _ = write!(text, " ({} beyond it, told)", self.beyond);
         }
         if self.refused > 0 {
-            let _ = write!(text, " ({} refused: pixels are to sort)", self.refused);
+            let _ = write!(text, " ({} refused: \"{}\")", self.refused, self.reasons.join("\", \""));
         }
         text
     }

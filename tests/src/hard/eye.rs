@@ -3,7 +3,8 @@
 use glam::DVec3;
 use tetrascope::{Camera, Projection, SceneFile, Volume};
 
-use super::case::{Group, HardCase, HardScene};
+use super::case::{Group, HardCase, HardScene, Limits};
+use super::judge::LIGHT_LIMITS;
 use super::views::{lively, look, volume};
 use crate::chords::boundary_faces;
 use crate::meshes::Tets;
@@ -157,7 +158,10 @@ fn in_the_plane_of_a_face() -> Vec<HardScene> {
         block.inward("on an inner face", mean(&[a, b, c])),
         // The middle ray leaves the face through an edge: before it the ray is a cell's that is drawn in f64, behind it rounding in f32 may give it
         // to a cell on the face's other side, and no order of whole cells says which of the two is in front. With `order = "per-pixel"` it is right.
-        HardScene { within: 5e-4, ..block.along("on an inner face", mean(&[a, b, c]), b - a) },
+        HardScene {
+            within: Limits::of_two(5e-4, LIGHT_LIMITS.compute),
+            ..block.along("on an inner face", mean(&[a, b, c]), b - a)
+        },
         block.beside("on the boundary", mean(&[p, q, r]), q - p),
         block.along("beside an inner face", beside, a - beside),
         block.scene("in the plane of a boundary face, outside", &camera, [48, 34]),

@@ -3,21 +3,25 @@
 use glam::DVec3;
 use tetrascope::{LinearImage, OpticalModel, SceneFile, View};
 
-use super::{HardScene, Truth};
+use super::{HardScene, Limits, Truth};
 use crate::chords::chords;
 use crate::ways::{Drawn, Way};
 
+/// What light may differ by in any channel: on the CPU, and on a GPU.
+pub const LIGHT_LIMITS: Limits = Limits::of_two(1e-5, 2e-5);
 /// What chords may differ by, relative to themselves, or to a tenth of the longest in the picture where they are shorter: at a silhouette a chord
 /// goes to 0, and its planes are known to f32 relative to the cell.
 ///
 /// On the CPU, and on a GPU, which has no f64 for planes that are steep.
-pub const CHORD_LIMITS: [f64; 2] = [1e-5, 1e-4];
+pub const CHORD_LIMITS: Limits = Limits::of_two(1e-5, 1e-4);
 /// What opacity may differ by from the plane of its neighbors: on the CPU, and on a GPU.
-pub const CRACK_LIMITS: [f64; 2] = [1e-5, 2e-5];
+pub const CRACK_LIMITS: Limits = Limits::of_two(1e-5, 2e-5);
 /// Share of the longest chord below which errors are relative to that.
 const SHORT: f64 = 0.1;
 /// Optical depth of the longest chord in the picture that is looked at for cracks: opacities are neither 0 nor 1.
 const DEPTH: f64 = 2.0;
+/// Words of the one refusal that is right in every scene, of [`Way::Triangles`] alone.
+pub const CANNOT_SORT: &str = "triangles cannot sort pixel by pixel";
 
 /// What one way made of one scene.
 #[derive(Clone, Debug)]
@@ -97,10 +101,19 @@ fn chords_near_the_origin(hard: &HardScene, triangles: &[[DVec3; 3]]) -> Vec<Opt
 
 fn finding(hard: &HardScene, way: Way, exact: &Exact) -> Finding {
     let mut found = Finding { way, chord: None, crack: None, light: 0.0, refused: None, failures: Vec::new() };
-    let Some(drawn) = draw(hard, &hard.scene, &mut found) else { return found };
+    let drawn = match draw(hard, &hard.scene, &mut found) {
+        Ok(drawn) => drawn,
+        Err(words) => {
+            if !may_refuse(hard, way, &words) {
+                found.failures.push(format!("it is refused: {words}"));
+            }
+            found.refused = Some(words);
+            return found;
+        }
+    };
     check_words(hard, &drawn, &mut found);
     check_threads(hard, &drawn.image, &mut found);
-    let within = if way.needs_gpu() { hard.within_gpu } else { hard.within };
+    let within = hard.light_within(way);
     let mut worst = (0.0, 0);
     for (pixel, (drawn, known)) in drawn.image.pixels().iter().zip(&exact.light).enumerate() {
         let Some(known) = known else { continue };
@@ -114,7 +127,7 @@ fn finding(hard: &HardScene, way: Way, exact: &Exact) -> Finding {
         }
     }
     found.light = worst.0;
-    if worst.0 > within && hard.is_judged(way) {
+    if worst.0 > within {
         let [x, y] = [worst.1 % exact.width, worst.1 / exact.width];
         found.failures.push(format!("light is off by {:.2e} of {within:.0e} at ({x}, {y})", worst.0));
     }
@@ -124,23 +137,20 @@ fn finding(hard: &HardScene, way: Way, exact: &Exact) -> Finding {
     found
 }
 
-/// The picture, if the way draws the scene; what is unsound about it is noted.
-fn draw(hard: &HardScene, scene: &SceneFile, found: &mut Finding) -> Option<Drawn> {
-    let drawn = match found.way.draw(&hard.volume, scene) {
-        Ok(drawn) => drawn,
-        Err(error) => {
-            if !found.way.needs_gpu() {
-                found.failures.push(format!("it is refused: {error}"));
-            }
-            found.refused = Some(error.to_string());
-            return None;
-        }
-    };
+/// Whether a way may refuse a scene in these words. A device that is lost or a program that does not compile is a failure.
+fn may_refuse(hard: &HardScene, way: Way, words: &str) -> bool {
+    (way == Way::Triangles && words.contains(CANNOT_SORT))
+        || (way.needs_gpu() && hard.refused.is_some_and(|expected| words.contains(expected)))
+}
+
+/// The picture, of which is noted what is unsound, or the words in which it is refused.
+fn draw(hard: &HardScene, scene: &SceneFile, found: &mut Finding) -> Result<Drawn, String> {
+    let drawn = found.way.draw(&hard.volume, scene).map_err(|error| error.to_string())?;
     let unsound = drawn.image.pixels().iter().filter(|p| !is_sound(p)).count();
     if unsound > 0 {
         found.failures.push(format!("{unsound} pixels are not finite, negative or of an opacity beyond 1"));
     }
-    Some(drawn)
+    Ok(drawn)
 }
 
 /// Colors are finite and not negative, opacities from 0 to 1.
@@ -149,7 +159,7 @@ pub fn is_sound(pixel: &[f32; 4]) -> bool {
 }
 
 fn check_words(hard: &HardScene, drawn: &Drawn, found: &mut Finding) {
-    let beyond = hard.beyond.filter(|beyond| beyond.ways.contains(&found.way)).map(|beyond| beyond.words);
+    let beyond = hard.beyond_of(found.way).map(|beyond| beyond.words);
     for words in hard.says.into_iter().chain(beyond) {
         if !drawn.warnings.iter().any(|warning| warning.contains(words)) {
             found.failures.push(format!("no warning has the words \"{words}\": {:?}", drawn.warnings));
@@ -183,7 +193,14 @@ fn check_chords(hard: &HardScene, chords: &[Option<f64>], width: usize, found: &
     scene.transfer.color = Some(vec![[0.0, 1.0, 1.0, 1.0]]);
     scene.transfer.extinction = Some(vec![[0.0, extinction]]);
     (scene.isosurface, scene.light) = (Vec::new(), None);
-    let Some(drawn) = draw(hard, &scene, found) else { return };
+    let drawn = match draw(hard, &scene, found) {
+        Ok(drawn) => drawn,
+        Err(words) => {
+            // The scene itself was drawn, in the same order.
+            found.failures.push(format!("of one extinction it is refused: {words}"));
+            return;
+        }
+    };
     let pixels = drawn.image.pixels();
 
     let mut chord_error = (0.0, 0);
@@ -196,8 +213,7 @@ fn check_chords(hard: &HardScene, chords: &[Option<f64>], width: usize, found: &
         }
     }
     found.chord = Some(chord_error.0);
-    let [chord_limit, crack_limit] =
-        [hard.chord_within, hard.crack_within].map(|limits| limits[usize::from(found.way.needs_gpu())]);
+    let [chord_limit, crack_limit] = [hard.chord_within, hard.crack_within].map(|limits| limits.of(found.way));
     if chord_error.0.is_nan() || (chord_error.0 > chord_limit && hard.is_judged(found.way)) {
         let [x, y] = [chord_error.1 % width, chord_error.1 / width];
         found.failures.push(format!("a chord is off by {:.2e} of itself at ({x}, {y})", chord_error.0));

@@ -5,7 +5,8 @@ use std::sync::Arc;
 use glam::DVec3;
 use tetrascope::{Camera, Projection};
 
-use super::case::{Group, HardCase, HardScene, Truth, scene_of, volume_of};
+use super::case::{Group, HardCase, HardScene, Limits, Truth, scene_of, volume_of};
+use super::judge::LIGHT_LIMITS;
 use crate::chords::{boundary, world};
 use crate::meshes::{Random, Tets, grid};
 
@@ -102,7 +103,7 @@ fn coplanar_sheet() -> Vec<HardScene> {
         scene("the eye in the plane", &tets, &camera([3.0, 0.23, 0.1], [0.0, 0.0, 0.1], 0.3), None),
         HardScene {
             // Rays within the plate are fifteen times as long as it is thick, and cells at the eye are huge on the screen.
-            within_gpu: 5e-5,
+            within: Limits::of_two(LIGHT_LIMITS.cpu, 5e-5),
             ..scene(
                 "the eye in the plane, within the plate",
                 &tets,

@@ -15,10 +15,10 @@ mod order;
 mod pixels;
 mod views;
 
-pub use case::{Beyond, Group, HardCase, HardScene, Light, Truth, scene_of, volume_of};
+pub use case::{Beyond, Group, HardCase, HardScene, Light, Limits, Truth, scene_of, volume_of};
 pub use classification::{cells_of_the_table, impossible_cells};
 pub use eye::towards_parallel_scenes;
-pub use judge::{CHORD_LIMITS, CRACK_LIMITS, Finding, is_sound, judge};
+pub use judge::{CANNOT_SORT, CHORD_LIMITS, CRACK_LIMITS, Finding, LIGHT_LIMITS, is_sound, judge};
 
 /// All cases, in the order of the document.
 pub fn all() -> Vec<HardCase> {

@@ -57,6 +57,6 @@ fn ring(place: &str, rise: f64) -> HardScene {
     let scene = scene_of(&camera, [65, 61], &color, &[[0.0, 8.0]]);
     let mut hard = HardScene::partition(place, volume_of(&points, &tetrahedra, &scalars), scene);
     // A needle is twenty times as long as thick, and its planes are known to f32 relative to its length.
-    hard.chord_within[0] = 3e-5;
+    hard.chord_within.cpu = 3e-5;
     hard
 }

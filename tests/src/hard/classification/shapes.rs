@@ -35,8 +35,8 @@ pub(super) fn alone(place: &str, corners: &[DVec3; 4], camera: &Camera, length: 
 }
 
 /// Coordinates on a GPU are integers: a step is 2^-29 of about the mesh's size. What is 1e-8 of the mesh thick is a few steps thick, and by as
-/// much as a share of itself it is drawn too thick or too thin where it stands alone. Beside neighbors, who share its corners, nothing shows.
-const LATTICE: Beyond = Beyond::gpu("thinner than 1e-7 of the mesh");
+/// much as a share of itself it is drawn too thick or too thin where it stands alone, up to all of it. Beside neighbors, who share its corners, nothing shows.
+const LATTICE: Beyond = Beyond::gpu("thinner than 1e-7 of the mesh", 1.0);
 
 /// A parallel view across z from the side, y into the picture, as high as wide.
 fn from_the_side(target: DVec3, height: f64) -> Camera {

@@ -111,7 +111,9 @@ pub(super) fn thick_vertex_between_parallel_edges() -> Vec<HardScene> {
     }
     let aside = look(DVec3::new(1.0, -3.0, 8.0), DVec3::ZERO, DVec3::Y, 20.0);
     scenes.push(HardScene::partition("side by side", rows.volume(), lively(&aside, [96, 40], RANGE, 0.7)));
-    for (angle, is_perspective) in [(1e-3, false), (1e-3, true), (1e-6, false), (1e-9, true)] {
+    for (angle, is_perspective, gpu_within) in
+        [(1e-3, false, None), (1e-3, true, None), (1e-6, false, Some(5e-2)), (1e-9, true, Some(1.0))]
+    {
         // As near as the silhouette is wide.
         let (words, camera) = if is_perspective {
             (", in perspective", down_from(PLACE + 4.0 * DVec3::Z, 0.5 * angle))
@@ -121,7 +123,7 @@ pub(super) fn thick_vertex_between_parallel_edges() -> Vec<HardScene> {
         let place = format!("an angle of {angle:e}, near{words}");
         let near = alone(&place, &cell(PLACE, angle), &camera, 0.5);
         // 1e-3 of the mesh is a million of a lattice's steps.
-        let beyond = (angle < 1e-4).then_some(Beyond::gpu("less than a hundredth of the mesh"));
+        let beyond = gpu_within.map(|within| Beyond::gpu("less than a hundredth of the mesh", within));
         scenes.push(HardScene { beyond, ..near });
     }
     scenes
