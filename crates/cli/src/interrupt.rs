@@ -1,7 +1,8 @@
 //! Ctrl-C, and the system's request to end.
 //!
 //! The first signal asks the work to stop, which it does between two tiles, frames or steps, and ends all writing ([`end_writing`]);
-//! what does not ask is ended after [`PATIENCE`]. A second signal ends at once. No file is half-written in any of these: files are renamed when they are complete.
+//! what does not ask is ended after [`PATIENCE`]. A second signal ends at once. No file is half-written in any of these: files are
+//! renamed when they are complete.
 //!
 //! Whoever takes signals waits for nothing: disks, terminals and locks may hang, and it is then that somebody wants the program to end.
 
