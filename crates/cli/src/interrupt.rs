@@ -1,7 +1,8 @@
 //! Ctrl-C, and the system's request to end.
 //!
-//! The first signal asks the work to stop, which it does between two tiles, frames or steps, and ends all writing ([`end_writing`]); what does not
-//! ask is ended after [`PATIENCE`]. A second signal ends at once. No file is half-written in any of these: files are renamed when they are complete.
+//! The first signal asks the work to stop, which it does between two tiles, frames or steps, and ends all writing ([`end_writing`]);
+//! what does not ask is ended after [`PATIENCE`]. A second signal ends at once. No file is half-written in any of these: files are
+//! renamed when they are complete.
 //!
 //! Whoever takes signals waits for nothing: disks, terminals and locks may hang, and it is then that somebody wants the program to end.
 
@@ -82,8 +83,8 @@ pub(crate) fn watch() -> io::Result<()> {
 
 /// The signals that are waited for, given those that are ignored, a bit each from the lowest on; `None` where nobody says.
 ///
-/// What whoever started the program wants ignored stays so: the closed terminal after `nohup`, Ctrl-C in a script's background. Where that is not known,
-/// a closed terminal ends the program as it ends any.
+/// What whoever started the program wants ignored stays so: the closed terminal after `nohup`, Ctrl-C in a script's background. Where
+/// that is not known, a closed terminal ends the program as it ends any.
 #[cfg(unix)]
 fn watched(ignored: Option<u64>) -> Vec<i32> {
     let is_ignored = |signal: i32| ignored.map_or(signal == SIGHUP, |mask| mask >> (signal - 1) & 1 == 1);

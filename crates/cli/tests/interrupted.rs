@@ -182,6 +182,13 @@ mod blocked {
         (writer, reader)
     }
 
+    /// A tetrahedron in a file of the folder, for `info`, which never asks.
+    fn mesh_in(folder: &Path) {
+        let text = "# vtk DataFile Version 3.0\nt\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 4 float\n0 0 0 1 0 0 0 1 0 0 0 1\n\
+                    CELLS 1 5\n4 0 1 2 3\nCELL_TYPES 1\n10\nPOINT_DATA 4\nSCALARS s float 1\nLOOKUP_TABLE default\n0 1 2 3\n";
+        std::fs::write(folder.join("a.vtk"), text).unwrap();
+    }
+
     /// Whether a signal is caught, Ctrl-C being 2.
     fn catches(child: &Child, signal: u32) -> bool {
         let status = std::fs::read_to_string(format!("/proc/{}/status", child.id())).unwrap();
@@ -191,10 +198,16 @@ mod blocked {
 
     #[test]
     fn what_does_not_ask_is_ended() {
+        let folder = tempfile::tempdir().unwrap();
+        mesh_in(folder.path());
         for signals in 1..=2 {
             let (writer, _reader) = full();
             let mut command = program();
-            command.args(["info", "builtin:rings"]).stdout(OwnedFd::from(writer)).stderr(Stdio::piped());
+            command
+                .args(["info", "a.vtk"])
+                .current_dir(folder.path())
+                .stdout(OwnedFd::from(writer))
+                .stderr(Stdio::piped());
             let child = command.spawn().unwrap();
             wait_until("the watch for signals", || catches(&child, 2));
             (0..signals).for_each(|_| signal(&child, "-INT"));
@@ -204,10 +217,16 @@ mod blocked {
 
     #[test]
     fn the_last_line_is_not_waited_for() {
+        let folder = tempfile::tempdir().unwrap();
+        mesh_in(folder.path());
         let (output, _reader) = full();
         let (errors, _reader_of_errors) = full();
         let mut command = program();
-        command.args(["info", "builtin:rings"]).stdout(OwnedFd::from(output)).stderr(OwnedFd::from(errors));
+        command
+            .args(["info", "a.vtk"])
+            .current_dir(folder.path())
+            .stdout(OwnedFd::from(output))
+            .stderr(OwnedFd::from(errors));
         let mut child = command.spawn().unwrap();
         wait_until("the watch for signals", || catches(&child, 2));
         signal(&child, "-INT");

@@ -23,7 +23,8 @@ pub(crate) struct Made {
 }
 
 impl Made {
-    /// Cells of the largest picture that the CPU's renderer drew, of which it keeps the memory: 0 before the first. `None` without a renderer.
+    /// Cells of the largest picture that the CPU's renderer drew, of which it keeps the memory: 0 before the first. `None` without a
+    /// renderer.
     pub(crate) fn last_frame(&self) -> Option<u64> {
         self.cpu.get().map(|_| self.drawn.load(Ordering::Relaxed))
     }

@@ -41,8 +41,8 @@ impl VolumeField<'_> {
     ///
     /// - `more`: what the caller needs besides, bytes by what it is for
     ///
-    /// Counts of cells, points and pixels are enough where there is plenty; only where there may not be enough every cell is looked at. What the CPU's renderer
-    /// of this field holds already, from an earlier picture or an order, is not asked for again.
+    /// Counts of cells, points and pixels are enough where there is plenty; only where there may not be enough every cell is looked at.
+    /// What the CPU's renderer of this field holds already, from an earlier picture or an order, is not asked for again.
     ///
     /// Of a picture on a graphics card only what the host holds is looked at: the device says itself what it cannot hold. Where nobody knows how much memory
     /// is left, only what the system refuses is refused.
@@ -65,7 +65,8 @@ impl VolumeField<'_> {
         Ok(check(parts, left, is_given)?)
     }
 
-    /// What the host needs for a picture at the very most, bytes, from counts alone: every cell is drawn, as the most costly of all plans has it.
+    /// What the host needs for a picture at the very most, bytes, from counts alone: every cell is drawn, as the most costly of all plans
+    /// has it.
     fn never_more(&self, plan: &Plan) -> u64 {
         let [cells, points] = [self.mesh().tetrahedra().len(), self.mesh().positions().len()];
         let pixels = u64::from(plan.view.width) * u64::from(plan.view.height);
