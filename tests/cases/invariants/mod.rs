@@ -5,6 +5,7 @@ mod color;
 mod degenerate;
 mod determinism;
 mod extremes;
+mod far_scalars;
 mod grids;
 mod models;
 mod numbering;

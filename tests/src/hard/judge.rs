@@ -20,8 +20,9 @@ pub const CRACK_LIMITS: Limits = Limits::of_two(1e-5, 2e-5);
 const SHORT: f64 = 0.1;
 /// Optical depth of the longest chord in the picture that is looked at for cracks: opacities are neither 0 nor 1.
 const DEPTH: f64 = 2.0;
-/// Words of the one refusal that is right in every scene, of [`Way::Triangles`] alone.
-pub const CANNOT_SORT: &str = "triangles cannot sort pixel by pixel";
+/// Words of the one refusal that is right in every scene, of [`Way::Triangles`] alone: by the scene file, and by the device.
+pub const CANNOT_SORT: [&str; 2] =
+    ["is sorted in the pixels, which triangles on the back end \"gpu\" cannot", "triangles cannot sort pixel by pixel"];
 
 /// What one way made of one scene.
 #[derive(Clone, Debug)]
@@ -139,7 +140,7 @@ fn finding(hard: &HardScene, way: Way, exact: &Exact) -> Finding {
 
 /// Whether a way may refuse a scene in these words. A device that is lost or a program that does not compile is a failure.
 fn may_refuse(hard: &HardScene, way: Way, words: &str) -> bool {
-    (way == Way::Triangles && words.contains(CANNOT_SORT))
+    (way == Way::Triangles && CANNOT_SORT.iter().any(|known| words.contains(known)))
         || (way.needs_gpu() && hard.refused.is_some_and(|expected| words.contains(expected)))
 }
 
