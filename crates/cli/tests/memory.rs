@@ -57,7 +57,7 @@ fn more_than_the_machine_has_is_refused_with_both_numbers() {
     let args = ["render", "builtin:rings", "--size", "32768", "-o", "a.exr"];
     let output = Command::new(PROGRAM).args(args).current_dir(folder.path()).output().unwrap();
     let text = refused(&output, &args, folder.path());
-    let refusal = text.contains("68 GiB of memory are needed") && text.contains("are left; ask for a smaller picture");
+    let refusal = text.contains("72 GiB of memory are needed") && text.contains("are left; ask for a smaller picture");
     assert!(refusal, "{left} bytes are left: {text}");
     // A plan says the same, and is no failure.
     let output = Command::new(PROGRAM).args(["plan", "builtin:rings", "--size", "32768"]).output().unwrap();

@@ -262,7 +262,7 @@ mod tests {
         assert!(fresh.check_memory_within(&plan, &more, Some(needed - 1)).is_err());
         field.render(&plan, &Silent).unwrap();
         assert!(field.check_memory_within(&plan, &more, Some(needed - 1)).is_ok());
-        let pixels_alone = ALWAYS_THERE + 16 * 16 * 36;
+        let pixels_alone = ALWAYS_THERE + 16 * 16 * 40;
         assert!(field.check_memory_within(&plan, &more, Some(pixels_alone)).is_err());
     }
 }
