@@ -60,7 +60,8 @@ impl VolumeField<'_> {
         let is_thin = |corners: &&[tetrascope_mesh::VertexId; 4]| {
             let [a, b, c, d] = corners.map(|v| mesh.positions()[v.index()]);
             let twice_area = |p: DVec3, q: DVec3, r: DVec3| (q - p).cross(r - p).length();
-            let largest = twice_area(a, b, c).max(twice_area(a, b, d)).max(twice_area(a, c, d)).max(twice_area(b, c, d));
+            let largest =
+                twice_area(a, b, c).max(twice_area(a, b, d)).max(twice_area(a, c, d)).max(twice_area(b, c, d));
             (b - a).cross(c - a).dot(d - a).abs() < THIN * largest
         };
         mesh.tetrahedra().par_iter().filter(|corners| is_thin(corners)).count()
