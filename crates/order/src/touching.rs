@@ -1,9 +1,9 @@
 //! Faces of cells that touch, and overlap by no more than rounding.
 //!
 //! A point on an edge or a face of another cell, a hanging node, lies off it by a last digit. Where it lies inside that cell, a ray enters
-//! the one cell before it leaves the other, by 1e-16: exactly speaking there is no gap, no exit in front of an entry and so no arrow, though nearly
-//! all of either cell lies on its own side of both faces. Which pairs these are does not depend on the view, and which is in front is as for
-//! a shared face: the one on the eye's side.
+//! the one cell before it leaves the other, by 1e-16: exactly speaking there is no gap, no exit in front of an entry and so no arrow,
+//! though nearly all of either cell lies on its own side of both faces. Which pairs these are does not depend on the view, and which is in
+//! front is as for a shared face: the one on the eye's side.
 
 use glam::DVec3;
 use tetrascope_mesh::CellId;
