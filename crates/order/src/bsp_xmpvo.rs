@@ -8,6 +8,7 @@ use tetrascope_view::Viewpoint;
 
 use crate::gaps::Gaps;
 use crate::overlaps::both_ways;
+use crate::touching::Touch;
 use crate::{BspTree, Cells, Guarantee, Mpvo, Order, VisibilityOrder};
 
 /// [`Mpvo`] with the relations that it misses where a mesh is not convex: those that [`BspTree::arrows`] finds across gaps.
@@ -27,17 +28,19 @@ pub struct BspXmpvo {
     tree: Option<Arc<BspTree>>,
     /// Whether cells of the mesh are known to overlap.
     overlaps: bool,
+    /// Faces between cells that overlap by no more than rounding, across which there is no gap.
+    touching: Arc<[Touch]>,
 }
 
 impl BspXmpvo {
-    pub(crate) fn with_parts(mpvo: Mpvo, tree: Option<Arc<BspTree>>, overlaps: bool) -> Self {
-        Self { mpvo, tree, overlaps }
+    pub(crate) fn with_parts(mpvo: Mpvo, tree: Option<Arc<BspTree>>, overlaps: bool, touching: Arc<[Touch]>) -> Self {
+        Self { mpvo, tree, overlaps, touching }
     }
 }
 
 impl VisibilityOrder for BspXmpvo {
     fn kept_bytes(&self) -> usize {
-        self.mpvo.kept_bytes() + self.tree.as_ref().map_or(0, |tree| tree.bytes())
+        self.mpvo.kept_bytes() + self.tree.as_ref().map_or(0, |tree| tree.bytes()) + size_of_val(self.touching.as_ref())
     }
 
     /// # Panics
@@ -55,8 +58,9 @@ impl VisibilityOrder for BspXmpvo {
                     arrows.push((front, back));
                 }
             });
-            if !self.mpvo.folded().is_empty() {
+            if !self.mpvo.folded().is_empty() || !self.touching.is_empty() {
                 arrows.extend(both_ways(self.mpvo.folded()));
+                arrows.extend(self.touching.iter().filter_map(|touch| touch.arrow(viewpoint)));
                 arrows.par_sort_unstable();
                 arrows.dedup();
             }

@@ -75,9 +75,11 @@ impl MeshVisibility {
         // A convex mesh has no gaps.
         let gaps_complete = self.is_convex(cells)
             || self.tree(cells).arrows(viewpoint, &mut |front, back| arrows.push((front, back))).is_complete;
-        // Cells that overlap at a face hide one another.
-        if !self.folded(cells).is_empty() {
+        // Cells that overlap at a face hide one another; those that do so by no more than rounding hide as if they only touched.
+        let touching = if self.is_convex(cells) { &[][..] } else { self.touching(cells) };
+        if !self.folded(cells).is_empty() || !touching.is_empty() {
             arrows.extend(both_ways(self.folded(cells)));
+            arrows.extend(touching.iter().filter_map(|touch| touch.arrow(viewpoint)));
             arrows.par_sort_unstable();
             arrows.dedup();
         }

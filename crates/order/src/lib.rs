@@ -50,6 +50,7 @@ mod sides;
 mod signs;
 mod steps;
 mod sweep;
+mod touching;
 mod unordered;
 mod visibility;
 
@@ -186,3 +187,5 @@ mod sides_tests;
 mod steps_tests;
 #[cfg(test)]
 mod tests;
+#[cfg(test)]
+mod touching_tests;

@@ -7,6 +7,7 @@ use tetrascope_mesh::{CellFace, CellId, FaceAdjacency, VertexId};
 use crate::Cells;
 use crate::convex::points_of;
 use crate::signs::side_of;
+use crate::touching::{CellSide, Touch};
 
 /// Where cells of a mesh overlap. A ray that is in two cells at once has no order for them, whoever sorts; sorting along every ray
 /// by the middles of segments is at least the same from one picture to the next.
@@ -30,14 +31,15 @@ impl Overlaps {
     }
 }
 
-/// Looks for overlaps: shared faces and boundary, not every cell against every other.
+/// Looks for overlaps: shared faces and boundary, not every cell against every other. Gives also what touches but for rounding, which is
+/// no overlap.
 ///
 /// Exact where it looks; the same for any number of threads. `folded`: of [`folded_pairs`].
-pub(crate) fn overlaps(cells: Cells<'_>, adjacency: &FaceAdjacency, folded: usize) -> Overlaps {
+pub(crate) fn overlaps(cells: Cells<'_>, adjacency: &FaceAdjacency, folded: usize) -> (Overlaps, Vec<Touch>) {
     let boundary = Boundary::new(cells, adjacency);
-    let (piercing, all_faces) = boundary.piercing();
+    let (piercing, touching, all_faces) = boundary.meetings();
     let (contained, all_parts) = boundary.contained(cells, adjacency);
-    Overlaps { folded, piercing, contained, is_complete: all_faces && all_parts }
+    (Overlaps { folded, piercing, contained, is_complete: all_faces && all_parts }, touching)
 }
 
 /// Pairs of cells that lie on the same side of a face which both have, each once, ascending.
@@ -138,11 +140,8 @@ impl Bounds {
 /// A boundary face.
 #[derive(Clone, Copy)]
 struct Outer {
-    points: [DVec3; 3],
+    side: CellSide,
     numbers: [VertexId; 3],
-    cell: CellId,
-    /// The side of the face that its cell is on.
-    cell_side: i8,
 }
 
 /// A box around some of the boundary faces.
@@ -167,7 +166,9 @@ impl Boundary {
             .map(|&face| {
                 let (numbers, apex) = points_of(cells, face);
                 let points = numbers.map(position);
-                Outer { points, numbers, cell: face.cell, cell_side: side_of(points, position(apex)) }
+                let apex = position(apex);
+                let side = CellSide { points, apex, cell: face.cell, cell_side: side_of(points, apex) };
+                Outer { side, numbers }
             })
             .collect();
         let mut nodes = Vec::new();
@@ -175,33 +176,41 @@ impl Boundary {
         Self { faces, nodes }
     }
 
-    /// Pairs of faces that pierce each other, and whether all were looked at.
-    fn piercing(&self) -> (usize, bool) {
+    /// How many pairs of faces pierce each other, those that touch but for rounding, and whether all were looked at.
+    fn meetings(&self) -> (usize, Vec<Touch>, bool) {
         let budget = VISITS + VISITS_PER_FACE * self.faces.len();
-        let (mut pairs, mut visits) = (0, 0);
+        let largest =
+            self.nodes.first().map_or(0.0, |all| all.bounds.low.abs().max(all.bounds.high.abs()).max_element());
+        let (mut pairs, mut touching, mut visits) = (0, Vec::new(), 0);
         for start in (0..self.faces.len()).step_by(CHUNK) {
             if visits > budget {
-                return (pairs, false);
+                return (pairs, touching, false);
             }
             let found = (start..self.faces.len().min(start + CHUNK)).into_par_iter().map(|number| {
                 let face = &self.faces[number];
-                let bounds = Bounds::around(&face.points);
-                let (mut pairs, mut visits) = (0, 0);
+                let bounds = Bounds::around(&face.side.points);
+                let (mut pairs, mut touching, mut visits) = (0, Vec::new(), 0);
                 self.visit(0, &bounds, &mut |place| {
                     visits += 1;
                     let other = &self.faces[place];
-                    // Each pair once. Two with a common edge meet there alone, or lie in one plane.
-                    let may_pierce = place > number
-                        && bounds.meets(&Bounds::around(&other.points))
-                        && other.numbers.iter().filter(|number| face.numbers.contains(number)).count() < 2;
-                    pairs += usize::from(may_pierce && pierce(&face.points, &other.points));
+                    // Each pair once.
+                    if place <= number || !bounds.meets(&Bounds::around(&other.side.points)) {
+                        return;
+                    }
+                    // Two with a common edge meet there alone, or lie in one plane.
+                    let shared = other.numbers.iter().filter(|number| face.numbers.contains(number)).count();
+                    pairs += usize::from(shared < 2 && pierce(&face.side.points, &other.side.points));
+                    touching.extend(Touch::of(&face.side, &other.side, largest));
                 });
-                (pairs, visits)
+                (pairs, touching, visits)
             });
-            let (more, looks) = found.reduce(|| (0, 0), |a, b| (a.0 + b.0, a.1 + b.1));
-            (pairs, visits) = (pairs + more, visits + looks);
+            // Collected, so that the order does not depend on threads.
+            for (more, also, looks) in found.collect::<Vec<_>>() {
+                (pairs, visits) = (pairs + more, visits + looks);
+                touching.extend(also);
+            }
         }
-        (pairs, true)
+        (pairs, touching, true)
     }
 
     /// Parts of which a cell lies inside another part, and whether all were looked at.
@@ -230,8 +239,9 @@ impl Boundary {
             let mut depth = 0;
             self.visit(0, &Bounds::around(&[middle, far]), &mut |number| {
                 let face = &self.faces[number];
-                if part_of[face.cell.index()] != part_of[cell.index()] && crosses(middle, far, &face.points) {
-                    depth += if side_of(face.points, middle) == face.cell_side { 1 } else { -1 };
+                let CellSide { points, cell_side, .. } = face.side;
+                if part_of[face.side.cell.index()] != part_of[cell.index()] && crosses(middle, far, &points) {
+                    depth += if side_of(points, middle) == cell_side { 1 } else { -1 };
                 }
             });
             depth > 0
@@ -253,14 +263,14 @@ impl Boundary {
 
 /// Adds the node of some faces, of which the first has the number `start`.
 fn grow(nodes: &mut Vec<Node>, faces: &mut [Outer], start: usize) -> usize {
-    let bounds = faces.iter().map(|face| Bounds::around(&face.points)).fold(Bounds::NOTHING, Bounds::and);
+    let bounds = faces.iter().map(|face| Bounds::around(&face.side.points)).fold(Bounds::NOTHING, Bounds::and);
     let index = nodes.len();
     nodes.push(Node { bounds, faces: start..start + faces.len(), children: None });
     if faces.len() > LEAF {
         let side = bounds.high - bounds.low;
         let axis = (0..3).max_by(|&i, &j| side[i].total_cmp(&side[j])).unwrap_or(0);
         let middle = faces.len() / 2;
-        let center = |face: &Outer| face.points.iter().map(|p| p[axis]).sum::<f64>();
+        let center = |face: &Outer| face.side.points.iter().map(|p| p[axis]).sum::<f64>();
         faces.select_nth_unstable_by(middle, |a, b| center(a).total_cmp(&center(b)));
         let (first, second) = faces.split_at_mut(middle);
         let children = [grow(nodes, first, start), grow(nodes, second, start + middle)];

@@ -9,7 +9,7 @@ use crate::{Cells, Overlaps};
 fn found(points: &[DVec3], tetrahedra: &[[u32; 4]]) -> Overlaps {
     let tetrahedra: Vec<_> = tetrahedra.iter().map(|t| t.map(VertexId)).collect();
     let (cells, adjacency) = (Cells { positions: points, tetrahedra: &tetrahedra }, FaceAdjacency::new(&tetrahedra));
-    overlaps(cells, &adjacency, folded_pairs(cells, &adjacency).len())
+    overlaps(cells, &adjacency, folded_pairs(cells, &adjacency).len()).0
 }
 
 fn count(points: &[DVec3], tetrahedra: &[[u32; 4]]) -> usize {

@@ -8,6 +8,7 @@ use crate::convex::is_convex;
 use crate::overlaps::{folded_pairs, overlaps};
 use crate::power::may_be_delaunay;
 use crate::sides::FaceSides;
+use crate::touching::Touch;
 use crate::{
     BspTree, BspXmpvo, Bucket, Budget, Cells, Centroid, Heights, Mpvo, OrderMethod, Overlaps, Power, PowerCertificate,
     Unordered, VisibilityOrder,
@@ -23,7 +24,8 @@ pub struct MeshVisibility {
     tree: OnceLock<Arc<BspTree>>,
     is_convex: OnceLock<bool>,
     folded: OnceLock<Arc<[(CellId, CellId)]>>,
-    overlaps: OnceLock<Overlaps>,
+    /// And what touches but for rounding.
+    overlaps: OnceLock<(Overlaps, Arc<[Touch]>)>,
     /// Whether the heights `|p|²` or those given are proven.
     quick: OnceLock<Arc<Power>>,
     power: OnceLock<Arc<Power>>,
@@ -73,12 +75,24 @@ impl MeshVisibility {
 
     /// Where cells overlap, so that no order is right.
     pub fn overlaps(&self, cells: Cells<'_>) -> Overlaps {
-        *self.overlaps.get_or_init(|| overlaps(cells, self.adjacency(cells), self.folded(cells).len()))
+        self.meetings(cells).0
+    }
+
+    /// Faces that touch, and overlap by no more than rounding.
+    pub(crate) fn touching(&self, cells: Cells<'_>) -> &[Touch] {
+        &self.meetings(cells).1
+    }
+
+    fn meetings(&self, cells: Cells<'_>) -> &(Overlaps, Arc<[Touch]>) {
+        self.overlaps.get_or_init(|| {
+            let (overlaps, touching) = overlaps(cells, self.adjacency(cells), self.folded(cells).len());
+            (overlaps, touching.into())
+        })
     }
 
     /// The same if it was looked for already; an order that depends on it has.
     pub fn known_overlaps(&self) -> Option<Overlaps> {
-        self.overlaps.get().copied()
+        self.overlaps.get().map(|(overlaps, _)| *overlaps)
     }
 
     /// Pairs of cells that lie on one side of a face which both have.
@@ -178,9 +192,12 @@ impl MeshVisibility {
             OrderMethod::Power => Arc::clone(self.power(cells)) as Arc<dyn VisibilityOrder>,
             OrderMethod::Mpvo => Arc::new(self.mpvo(cells)),
             OrderMethod::BspXmpvo => {
-                let tree = (!self.is_convex(cells)).then(|| Arc::clone(self.tree(cells)));
-                let overlaps = !self.is_convex(cells) && self.overlaps(cells).any();
-                Arc::new(BspXmpvo::with_parts(self.mpvo(cells), tree, overlaps))
+                if self.is_convex(cells) {
+                    return Arc::new(BspXmpvo::with_parts(self.mpvo(cells), None, false, Arc::new([])));
+                }
+                let (overlaps, touching) = self.meetings(cells);
+                let tree = Some(Arc::clone(self.tree(cells)));
+                Arc::new(BspXmpvo::with_parts(self.mpvo(cells), tree, overlaps.any(), Arc::clone(touching)))
             }
         }
     }
