@@ -26,11 +26,15 @@ fn joint_slack(corners: array<vec4<i32>, 4>) -> f32 {
     return min(SLACK_OF_CELL * range + SLACK_OF_DEPTH * depth, MOST_SLACK * range);
 }
 
-// The rank at the front: that of the exit before where the two are one place, else the cell's own. Remembers the exit.
+// The rank at the front: that of the exit before where the two are one place, else the cell's own. Remembers the exit that is farthest: where
+// the eye lies in a face but for rounding, either cell of the face may come first, and what the ray has of one of them is next to nothing.
 //
 // - depth, ranks: at the entry and at the exit
 fn carry_joint(joint: ptr<function, Joint>, depth: vec2<f32>, slack: f32, ranks: vec2<f32>) -> f32 {
     let before = *joint;
-    *joint = Joint(depth.y, slack, ranks.y);
-    return select(ranks.x, before.rank, abs(depth.x - before.depth) <= max(slack, before.slack));
+    let most_slack = max(slack, before.slack);
+    if depth.y >= before.depth - most_slack {
+        *joint = Joint(depth.y, slack, ranks.y);
+    }
+    return select(ranks.x, before.rank, abs(depth.x - before.depth) <= most_slack);
 }

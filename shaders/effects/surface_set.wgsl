@@ -22,8 +22,9 @@ const MARGIN_OF_CELL: f32 = 1e-4;
 const MARGIN_OF_FIELD: f32 = 2147.0;
 
 // How far below the value of a surface a scalar still counts as on it, as a share of the cell's range and of the scalars' unit: above
-// what a scalar at a face rounds to, far below what a picture shows. It moves surfaces by this much and changes nothing else. Without it,
-// a surface in the faces of cells, or in the mesh's boundary, would be there or not as each pixel rounds.
+// what a scalar at a face rounds to, far below what a picture shows. It says whether a segment ends on the far side of a surface and
+// changes nothing else: segments are cut at the value itself, or at the end that is nearest to it. Without it, a surface in the faces of
+// cells, or in the mesh's boundary, would be there or not as each pixel rounds.
 const ON_SURFACE_OF_CELL: f32 = 1e-5;
 const ON_SURFACE_OF_FIELD: f32 = 2e-6;
 

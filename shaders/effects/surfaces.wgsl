@@ -19,16 +19,16 @@
 // Scalars that differ by less are one: their difference has no inverse.
 const LEAST_WIDTH: f32 = 1e-30;
 
-// The value of a surface as a cell sees it: from its reference scalar, and moved down by the tolerance.
-fn local_value(index: u32, reference: i32, tolerance: f32) -> f32 {
-    return f32(surfaces[index].value - reference) * LATTICE_STEP - tolerance;
+// The value of a surface as a cell sees it: from its reference scalar.
+fn local_value(index: u32, reference: i32) -> f32 {
+    return f32(surfaces[index].value - reference) * LATTICE_STEP;
 }
 
 // Number of the cell's surfaces that are not above two scalars.
 fn surface_ranks(near: vec2<u32>, reference: i32, tolerance: f32, scalars: vec2<f32>) -> vec2<u32> {
     var ranks = vec2<u32>(0u);
     for (var index = near.x; index < near.x + near.y; index++) {
-        let value = local_value(index, reference, tolerance);
+        let value = local_value(index, reference) - tolerance;
         ranks += select(vec2<u32>(0u), vec2<u32>(1u), scalars >= vec2<f32>(value));
     }
     return ranks;
@@ -64,7 +64,7 @@ fn shade(
     } else {
         let ends = vec2<f32>(sample.front, sample.back);
         ranks = surface_ranks(near, cell.reference, tolerance, ends);
-        // Values lie a tolerance low already: clear of them is what lies half a tolerance beyond the value moved and not moved.
+        // Sides change a tolerance below the values: clear of that is what lies half a tolerance beyond there and beyond the values.
         let least = surface_ranks(near, cell.reference, tolerance, ends - 1.5 * tolerance);
         let most = surface_ranks(near, cell.reference, tolerance, ends + 0.5 * tolerance);
         if any(least != most) {
@@ -89,7 +89,7 @@ fn shade(
     for (var step = 0u; step < crossed && light.opacity < 1.0; step++) {
         let index = near.x + select(ranks.x - 1u - step, ranks.x + step, rises);
         let surface = surfaces[index];
-        let value = local_value(index, cell.reference, tolerance);
+        let value = local_value(index, cell.reference);
         // Between the surface before and the back, also where ranks and scalars do not agree on which way is up.
         let next = clamp(value, min(reached, sample.back), max(reached, sample.back));
         let share = (next - reached) * inverse;

@@ -4,11 +4,16 @@
 #use integrate/parts.wgsl
 #use <model>
 
-// Half the depth from which on a part's end is no deeper: it is opaque as often as one likes, and squares stay finite.
-const DEEPEST_HALF: f32 = 5e5;
+// Depth of a part from which on the whole segment is taken as shorter: it is opaque as often as one likes, and its light is a mean, which
+// does not change, while squares stay finite.
+const DEEPEST: f32 = 1e6;
+// Depth of an end beyond which none is told from another: sums stay finite.
+const LARGEST: f32 = 1e30;
 
 // Over the pieces so far, in ascending order of the scalar whichever way the ray runs.
 struct Integrals {
+    // What lengths are multiplied by, see DEEPEST.
+    scale: f32,
     depth: f32,
     light: vec3<f32>,
     skew: vec3<f32>,
@@ -18,15 +23,23 @@ struct Integrals {
 }
 
 // With the part of a segment in the next piece, whose scalars lie above all before; its length is above 0.
-fn with_part(before: Integrals, low: Value, high: Value, length: f32) -> Integrals {
+fn with_part(before: Integrals, low: Value, high: Value, part_length: f32) -> Integrals {
     // Half the depth that the part would have with the extinction of either end.
-    let start = min(0.5 * length * low.extinction, DEEPEST_HALF);
-    let end = min(0.5 * length * high.extinction, DEEPEST_HALF);
+    let scaled = before.scale * part_length;
+    let ends = min(0.5 * scaled * vec2<f32>(low.extinction, high.extinction), vec2<f32>(LARGEST));
+    let shorter = select(1.0, DEEPEST / (ends.x + ends.y), ends.x + ends.y > DEEPEST);
+    let length = scaled * shorter;
+    let start = ends.x * shorter;
+    let end = ends.y * shorter;
     let depth = start + end;
     let tilt = end - start;
     let change = high.color - low.color;
     let mean = 0.5 * (low.color + high.color);
     var next = before;
+    next.scale *= shorter;
+    next.depth *= shorter;
+    next.light *= shorter;
+    next.skew *= shorter * shorter;
     var light: vec3<f32>;
     var skew: vec3<f32>;
     if (MODEL_COLOR_IS_PER_LENGTH) {
@@ -39,7 +52,7 @@ fn with_part(before: Integrals, low: Value, high: Value, length: f32) -> Integra
         next.lowest = min(before.lowest, min(low.color, high.color));
         next.highest = max(before.highest, max(low.color, high.color));
     }
-    next.skew += skew + 0.5 * (before.depth * light - depth * before.light);
+    next.skew += skew + 0.5 * (next.depth * light - depth * next.light);
     next.light += light;
     next.depth += depth;
     return next;
@@ -78,7 +91,7 @@ fn light_of(sums: Integrals, rises: bool) -> Light {
 
 fn volume(cell: Optics, front: f32, back: f32, length: f32) -> Light {
     let parts = parts_of(front, back);
-    var sums = Integrals(0.0, vec3<f32>(0.0), vec3<f32>(0.0), vec3<f32>(3.0e38), vec3<f32>(0.0));
+    var sums = Integrals(1.0, 0.0, vec3<f32>(0.0), vec3<f32>(0.0), vec3<f32>(3.0e38), vec3<f32>(0.0));
     for (var index = 0u; index < cell.count; index++) {
         let piece = local_piece(cell.first + index, cell.reference);
         let part = part_in(parts, piece, index, cell.count);

@@ -6,7 +6,7 @@ use std::path::Path;
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
 use tetrascope::{IoError, read_exr, read_mesh, read_picture, read_png, readers};
-use tetrascope_tests::fuzz::corpus::{Compressor, Encoding, Values, VtuWriter, png_chunks};
+use tetrascope_tests::fuzz::corpus::{Compressor, Encoding, Values, VtuWriter, exr_header, png_chunks};
 use tetrascope_tests::fuzz::{Target, most_allocated};
 
 use crate::{alone, counted};
@@ -309,37 +309,15 @@ fn pictures_of_nothing_are_refused() {
 #[test]
 fn exr_headers_reserve_nothing() {
     let _alone = alone();
-    let file = |width: i32, height: i32, channels: usize, more: &str| {
-        let mut out = vec![0x76, 0x2f, 0x31, 0x01, 2, 0, 0, 0];
-        let mut attribute = |name: &str, kind: &str, value: &[u8]| {
-            out.extend(
-                [name.as_bytes(), b"\0", kind.as_bytes(), b"\0", &(value.len() as u32).to_le_bytes(), value].concat(),
-            );
-        };
-        let mut list: Vec<u8> = (0..channels)
-            .flat_map(|n| {
-                [format!("c{n:05}{more}\0").as_bytes(), &[2, 0, 0, 0, 0, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0]].concat()
-            })
-            .collect();
-        list.push(0);
-        let window = [0, 0, width.wrapping_sub(1), height.wrapping_sub(1)].map(i32::to_le_bytes).concat();
-        attribute("channels", "chlist", &list);
-        attribute("compression", "compression", &[3]);
-        attribute("dataWindow", "box2i", &window);
-        attribute("displayWindow", "box2i", &window);
-        attribute("lineOrder", "lineOrder", &[0]);
-        attribute("pixelAspectRatio", "float", &1_f32.to_le_bytes());
-        attribute("screenWindowCenter", "v2f", &[0; 8]);
-        attribute("screenWindowWidth", "float", &1_f32.to_le_bytes());
-        out.push(0);
-        out.extend([0; 64]);
-        out
+    let file = |width: i32, height: i32, channels: usize| {
+        let names: Vec<String> = (0..channels).map(|n| format!("c{n:05}")).collect();
+        [exr_header([width, height], &names, 3), vec![0; 64]].concat()
     };
     for (width, height) in [(i32::MAX, i32::MAX), (1 << 20, 1 << 10), (i32::MIN, 4), (0, 0), (1 << 26, 1)] {
-        read("huge.exr", &file(width, height, 4, ""), Refused(&["OpenEXR"]), 4 << 20);
+        read("huge.exr", &file(width, height, 4), Refused(&["OpenEXR"]), 4 << 20);
     }
     // One line of 4 million pixels, of 20000 channels: 320 GB a block.
-    read("channels.exr", &file(1 << 22, 1, 20_000, ""), Refused(&["20000 channels"]), 64 << 20);
+    read("channels.exr", &file(1 << 22, 1, 20_000), Refused(&["20000 channels"]), 64 << 20);
 }
 
 /// Every reader on nothing, and on the beginnings of every other format.

@@ -14,7 +14,7 @@ use crate::sample::{Spread, around, spread};
 ///
 /// The largest of a sample is below the largest of all. Measured over random scenes and every method, see `docs/accuracy.md`: with this factor
 /// the guess is between once and ten times the truth.
-pub(crate) const EXTRAPOLATION: f64 = 3.0;
+pub(crate) const EXTRAPOLATION: f64 = 4.5;
 
 /// Rays about which more are traced, in each of the rounds that look for worse ones.
 const WORST: usize = 12;

@@ -3,7 +3,7 @@
 use glam::DVec3;
 use rayon::prelude::*;
 use tetrascope_integrate::Integration;
-use tetrascope_scene::{Backend, Interpolation, Plan, Sharpness, TargetBits};
+use tetrascope_scene::{Backend, Interpolation, IsosurfaceMethod, Plan, Sharpness, TargetBits};
 
 use crate::VolumeField;
 
@@ -19,12 +19,13 @@ const THIN: f64 = 1e-7;
 impl VolumeField<'_> {
     /// Where the picture of a plan is less right than usual because of the numbers that its back end computes with: sentences for people.
     ///
-    /// The CPU draws cells in which the transfer function changes faster than 32 bits know a scalar in 64 bits, unless the scene has isosurfaces
-    /// or light, or asks for segments by triangles; a GPU has no such numbers.
+    /// The CPU draws cells in which the transfer function changes faster than 32 bits know a scalar in 64 bits, unless isosurfaces are drawn by
+    /// maps or the scene asks for segments by triangles; a GPU has no such numbers.
     pub fn precision_warnings(&self, plan: &Plan) -> Vec<String> {
         let mut warnings = Vec::new();
-        let is_cut_in_32_bits =
-            plan.isosurfaces.is_some() || plan.lighting.is_some() || plan.interpolation != Interpolation::Exact;
+        let has_maps =
+            plan.isosurfaces.as_ref().is_some_and(|isosurfaces| isosurfaces.method != IsosurfaceMethod::Exact);
+        let is_cut_in_32_bits = has_maps || plan.interpolation != Interpolation::Exact;
         let is_in_32_bits = plan.backend == Backend::Gpu || (plan.backend == Backend::Cpu && is_cut_in_32_bits);
         if is_in_32_bits && matches!(plan.integration, Integration::Exact | Integration::Cumulative) {
             let cells = self.cells_beyond_32_bits(plan);
@@ -41,7 +42,8 @@ impl VolumeField<'_> {
             if thin > 0 {
                 warnings.push(format!(
                     "{thin} tetrahedra are thinner than 1e-7 of the mesh, which is as exact as a GPU holds coordinates: between neighbors they are drawn \
-                     rightly, but one that stands alone may be twice as dense as it is, or half; the back end \"cpu\" is right"
+                     rightly, but one that stands alone may be twice as dense as it is, or half{}; the back end \"cpu\" is right",
+                    if plan.isosurfaces.is_some() { ", and isosurfaces in them may be missed" } else { "" }
                 ));
             }
         }

@@ -7,8 +7,8 @@ use std::sync::Arc;
 
 use glam::DVec3;
 use tetrascope::{
-    Error, Gpu, GpuError, GpuRenderer, Gradients, Guarantee, Integration, Interpolation, IsosurfaceMethod, LinearImage,
-    OpticalModel, OrderMethod, Plan, Rendered, SceneFile, Silent, Volume, VolumeField,
+    Backend, Error, Gpu, GpuError, GpuRenderer, Gradients, Guarantee, Integration, Interpolation, IsosurfaceMethod,
+    LinearImage, OpticalModel, OrderMethod, Plan, Rendered, SceneFile, Silent, Volume, VolumeField,
 };
 
 use super::Case;
@@ -260,6 +260,8 @@ const GPU_REASONS: &[&str] = &[
     "which triangles on the back end \"gpu\" cannot",
     "triangles cannot sort pixel by pixel",
     "which the path \"compute\" of the back end \"gpu\" does not have",
+    // A driver's limit, which it does not tell: sorting hundreds of layers in a pixel takes more turns than it grants.
+    "ended a loop before its end",
 ];
 
 fn check_soundness(way: Way, image: &LinearImage, judged: &mut Judged) {
@@ -303,6 +305,9 @@ fn agreement(field: &VolumeField<'_>, plan: &Plan, rendered: &Rendered) -> (Agre
     if plan.isosurfaces.is_some() && jumps(field) {
         return (Agreement::Soundness, "soundness: isosurfaces lie in jumps of the field, in no cell");
     }
+    if plan.isosurfaces.is_some() && plan.backend == Backend::Gpu && has_sheets(field) {
+        return (Agreement::Soundness, "soundness: isosurfaces lie in cells that a GPU cannot tell from faces");
+    }
     let Ok(renderer) = field.renderer() else { return (without_order, "opacity: no order is known") };
     let (cells, visibility) = (renderer.cells(), renderer.visibility());
     let overlaps = visibility.overlaps(cells);
@@ -334,14 +339,26 @@ fn agreement(field: &VolumeField<'_>, plan: &Plan, rendered: &Rendered) -> (Agre
 /// Whether a cell is thinner than a thousandth of its longest edge. A place along a ray is known to some 3e-7 of the cell's size, and gradients that are
 /// interpolated across so thin a cell to 3e-4 of their difference, which a highlight multiplies by its exponent.
 fn has_thin_cells(field: &VolumeField<'_>) -> bool {
+    any_cell(field, |[a, b, c, d], height| {
+        let longest = [b - a, c - a, d - a, c - b, d - b, d - c].map(DVec3::length).into_iter().fold(0.0, f64::max);
+        height < 1e-3 * longest
+    })
+}
+
+/// Whether a cell is thinner than what a GPU holds points by, of which it warns: what the field does across it is a jump there.
+fn has_sheets(field: &VolumeField<'_>) -> bool {
+    any_cell(field, |_, height| height < 1e-7)
+}
+
+/// Whether something is so of a cell, given its corners and its least height.
+fn any_cell(field: &VolumeField<'_>, is_so: impl Fn([DVec3; 4], f64) -> bool) -> bool {
     let mesh = field.on_mesh.mesh.as_ref();
     mesh.tetrahedra().iter().any(|cell| {
         let [a, b, c, d] = cell.map(|v| mesh.positions()[v.index()]);
         let six_volume = (b - a).dot((c - a).cross(d - a)).abs();
         let faces = [[a, b, c], [a, b, d], [a, c, d], [b, c, d]];
         let largest = faces.map(|[p, q, r]| (q - p).cross(r - p).length()).into_iter().fold(0.0, f64::max);
-        let longest = [b - a, c - a, d - a, c - b, d - b, d - c].map(DVec3::length).into_iter().fold(0.0, f64::max);
-        six_volume < 1e-3 * longest * largest
+        is_so([a, b, c, d], if largest > 0.0 { six_volume / largest } else { 0.0 })
     })
 }
 

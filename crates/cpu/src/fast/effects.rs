@@ -26,8 +26,8 @@ pub(crate) struct CellEffects {
 /// what a scalar at a face rounds to in f32 (in the steepest cells, see `STEEP` in set-up, 1.5e-5 of the cell's range, rarely more
 /// than a tenth of that), far below what a picture shows.
 ///
-/// It moves surfaces by this much and changes nothing else. Without it, a surface in the faces of cells, or in the mesh's
-/// boundary, would be there or not as each pixel rounds.
+/// It says whether a segment ends on the far side of a surface and changes nothing else: segments are cut at the value itself, or at the end
+/// that is nearest to it. Without it, a surface in the faces of cells, or in the mesh's boundary, would be there or not as each pixel rounds.
 const ON_SURFACE: [f64; 2] = [1e-5, 2e-6];
 
 /// Depths are off by at most this share of a cell's own range of depths (a steep plane, see `STEEP` in set-up, has 2e-5 of it), and
@@ -64,7 +64,12 @@ pub(crate) struct Lamp {
 /// An isosurface as one cell sees it: its value relative to the cell's reference.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct LocalSurface {
+    /// From which on a scalar counts as above it, see [`ON_SURFACE`].
+    pub(crate) above: f32,
+    /// Where segments are cut.
     pub(crate) value: f32,
+    /// The same, not relative to anything.
+    pub(crate) scalar: f64,
     /// Of the side that faces rising scalars, and of the other.
     pub(crate) colors: [[f32; 3]; 2],
     pub(crate) opacity: f32,
@@ -122,7 +127,9 @@ impl Effects {
         let [low, high] = record.scalar_range;
         let tolerance = ON_SURFACE[0] * f64::from(high - low) + ON_SURFACE[1];
         let to_local = |surface: &Isosurface| LocalSurface {
-            value: (surface.value - record.scalar_reference - tolerance) as f32,
+            above: (surface.value - record.scalar_reference - tolerance) as f32,
+            value: (surface.value - record.scalar_reference) as f32,
+            scalar: surface.value,
             colors: [surface.color, surface.back_color].map(|color| color.map(|c| c as f32)),
             opacity: surface.opacity as f32,
             shading: surface.shading,

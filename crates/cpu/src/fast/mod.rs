@@ -276,8 +276,9 @@ impl CpuRenderer {
         // Local coordinates are at most 1 long, so that no chord is longer than 2.
         let longest_chord = 2.0 * self.frame.scale * longest_depth / space.world_per_depth;
         let densest = optics.transfer().max_extinction(f64::NEG_INFINITY, f64::INFINITY);
-        // Where there are isosurfaces or light, segments are cut in f32.
-        let is_sharp = effects.is_none()
+        // Maps have parts of the volume that no scalars bound.
+        let has_maps = effects.is_some_and(|effects| effects.maps.is_some());
+        let is_sharp = !has_maps
             && plan.interpolation == Interpolation::Exact
             && (optics.sharpness().may_be_beyond_32_bits(longest_chord)
                 || (plan.model.needs_extinction() && Sharpness::is_chord_beyond_32_bits(densest, longest_chord)));
@@ -486,5 +487,7 @@ mod interpolation_tests;
 mod pieces_tests;
 #[cfg(test)]
 mod sorting_tests;
+#[cfg(test)]
+mod surfaces_tests;
 #[cfg(test)]
 mod tests;

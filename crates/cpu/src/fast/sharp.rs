@@ -32,15 +32,24 @@ pub(crate) struct SharpCell<'a> {
 }
 
 impl SharpCell<'_> {
-    /// The light of a block. Out of line: few cells ask for it.
+    /// The light of a block.
+    #[inline(always)]
+    pub(crate) fn shade<S: Simd>(&self, simd: S, sample: &Sample<S>) -> Light<S> {
+        self.shade_between(simd, sample, [f64::NEG_INFINITY, f64::INFINITY])
+    }
+
+    /// The light of the parts of a block's segments whose scalars lie between two. Out of line: few cells ask for it.
+    ///
+    /// Lanes in which the sample has no length have none. A segment of one scalar lies in one part as a whole, as the sample says.
     #[cold]
     #[inline(never)]
-    pub(crate) fn shade<S: Simd>(&self, simd: S, sample: &Sample<S>) -> Light<S> {
+    pub(crate) fn shade_between<S: Simd>(&self, simd: S, sample: &Sample<S>, [below, above]: [f64; 2]) -> Light<S> {
         let mut place = [[0.0_f32; LANES]; 2];
         for (lanes, values) in place.iter_mut().zip(sample.place) {
             values.store_slice(lanes);
         }
-        let covered = sample.covered.to_bitmask();
+        let one_scalar = sample.front.simd_eq(sample.back).to_bitmask();
+        let covered = (sample.covered & sample.length.simd_gt(0.0)).to_bitmask();
         let (mut rgb, mut opacity) = ([[0.0_f32; LANES]; 3], [0.0_f32; LANES]);
         for lane in (0..LANES).filter(|lane| covered >> lane & 1 != 0) {
             let [u, w] = [0, 1].map(|axis| {
@@ -50,10 +59,14 @@ impl SharpCell<'_> {
             let Some(span) = self.cell.clip.span_behind(&self.cell.cuts, self.space.is_perspective, u, w) else {
                 continue;
             };
+            let whole = (span.scalar[1] - span.scalar[0]).abs();
+            let [scalar_front, scalar_back] = span.scalar.map(|scalar| scalar.max(below).min(above));
+            let is_whole = one_scalar >> lane & 1 != 0 || whole == 0.0;
+            let share = if !is_whole { (scalar_back - scalar_front).abs() / whole } else { 1.0 };
             let segment = Segment {
-                scalar_front: span.scalar[0],
-                scalar_back: span.scalar[1],
-                chord_length: (span.depth[1] - span.depth[0]) * self.space.ray_stretch(u, w),
+                scalar_front,
+                scalar_back,
+                chord_length: share * (span.depth[1] - span.depth[0]) * self.space.ray_stretch(u, w),
             };
             let light = self.integrator.integrate(&segment);
             for (lanes, value) in rgb.iter_mut().zip(light.rgb) {

@@ -45,7 +45,8 @@ impl Joint {
         joint
     }
 
-    /// The rank at the front: that of the exit before where the two are one place, else the cell's own. Remembers the exit.
+    /// The rank at the front: that of the exit before where the two are one place, else the cell's own. Remembers the exit that is farthest: where the
+    /// eye lies in a face but for rounding, either cell of the face may come first, and what the ray has of one of them is next to nothing.
     #[inline(always)]
     pub(crate) fn carry<S: Simd>(
         &mut self,
@@ -56,8 +57,9 @@ impl Joint {
     ) -> f32x8<S> {
         let load = |lanes: &[f32; LANES]| f32x8::from_slice(simd, lanes);
         let (depth, slack_before, rank) = (load(&self.depth), load(&self.slack), load(&self.rank));
-        let is_joint = (sample.depth[0] - depth).abs().simd_le(slack.max(slack_before));
-        let covered = sample.covered;
+        let most_slack = slack.max(slack_before);
+        let is_joint = (sample.depth[0] - depth).abs().simd_le(most_slack);
+        let covered = sample.covered & sample.depth[1].simd_ge(depth - most_slack);
         covered.select(sample.depth[1], depth).store_slice(&mut self.depth);
         covered.select(slack, slack_before).store_slice(&mut self.slack);
         covered.select(back, rank).store_slice(&mut self.rank);
@@ -183,7 +185,7 @@ impl CellWithEffects<'_> {
         let (zero, one) = (f32x8::splat(simd, 0.0), f32x8::splat(simd, 1.0));
         let (mut front, mut back) = (zero, zero);
         for surface in self.surfaces {
-            let value = f32x8::splat(simd, surface.value);
+            let value = f32x8::splat(simd, surface.above);
             front += sample.front.simd_ge(value).select(one, zero);
             back += sample.back.simd_ge(value).select(one, zero);
         }
@@ -269,7 +271,16 @@ impl CellWithEffects<'_> {
             let length = sample.length * share;
             if length.simd_gt(zero).any_true() {
                 let part = Sample { front: rises.select(from, to), back: rises.select(to, from), length, ..*sample };
-                let part = lit(shade(simd, cell, &part), of_volume);
+                let part = match cell.sharp {
+                    // The ends of the part are not what 32 bits say either.
+                    Some(sharp) if first != last => {
+                        let below = if index == first { f64::NEG_INFINITY } else { self.surfaces[index - 1].scalar };
+                        let above = if index == last { f64::INFINITY } else { self.surfaces[index].scalar };
+                        sharp.shade_between(simd, &part, [below, above])
+                    }
+                    _ => shade(simd, cell, &part),
+                };
+                let part = lit(part, of_volume);
                 compose(&mut light, part, rises);
             }
             if index < last {

@@ -246,9 +246,7 @@ impl Job<'_> {
                     let fan = records.fans.get(item as usize).and_then(Option::as_ref);
                     let table = self.lookup.map(|lookup| lookup.localize(record));
                     let with_effects = self.effects_of(records, record, &mut surfaces);
-                    // Isosurfaces cut segments, and light is found, in f32.
-                    let sharp = if with_effects.is_none() { self.sharp(records, record) } else { None };
-                    let cell = CellOptics { pieces: &pieces, fan, table, sharp };
+                    let cell = CellOptics { pieces: &pieces, fan, table, sharp: self.sharp(records, record) };
                     let listed = Listed::new(records, record, item);
                     self.draw_cell::<S, I, M>(simd, listed, cell, with_effects.as_ref(), &mut canvas);
                     if let Some(held) = canvas.held.as_mut().filter(|held| held.is_full()) {

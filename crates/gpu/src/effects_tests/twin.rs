@@ -34,16 +34,20 @@ impl Twin<'_> {
     pub(super) fn cut(&self, segment: &TestSegment, crossings: &mut u32) -> RgbaAssoc {
         let [low, high] = self.scene.scalar_bounds(segment);
         let tolerance = 1e-5 * f64::from(high - low) * LATTICE_STEP + 2e-6;
-        let local = |surface: &Isosurface| Isosurface {
-            value: f64::from(UNITS.to_lattice(surface.value) - segment.reference) * LATTICE_STEP - tolerance,
-            ..*surface
+        let moved_by = |by: f64| {
+            let local = |surface: &Isosurface| Isosurface {
+                value: f64::from(UNITS.to_lattice(surface.value) - segment.reference) * LATTICE_STEP - by,
+                ..*surface
+            };
+            Isosurfaces::new(self.effects.drawn.as_slice().iter().map(local).collect()).unwrap()
         };
-        let surfaces = Isosurfaces::new(self.effects.drawn.as_slice().iter().map(local).collect()).unwrap();
+        // The tolerance says on which side an end is. It moves no surface.
+        let (surfaces, sides) = (moved_by(0.0), moved_by(tolerance));
         let [scalar_front, scalar_back] = segment.scalars.map(f64::from);
         let whole = Segment { scalar_front, scalar_back, chord_length: f64::from(segment.length) };
         let intensity = self.volume_intensity(segment);
         surfaces.compose(
-            surfaces.ranks(&whole),
+            sides.ranks(&whole),
             &whole,
             |part| grey(part, intensity),
             |crossing| {

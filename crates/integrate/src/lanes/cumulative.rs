@@ -16,8 +16,11 @@ use fearless_simd::{Simd, f32x8, mask32x8, prelude::*};
 
 use super::exponential::opacity_transmittance;
 
-/// Depth from which on a part of a piece is no deeper: it is opaque as often as one likes, and squares stay finite.
+/// Depth of a part of a piece from which on the whole segment is taken as shorter: it is opaque as often as one likes, and its light is a mean,
+/// which does not change, while squares stay finite.
 const DEEPEST: f32 = 1e6;
+/// Depth of an end beyond which none is told from another: sums stay finite.
+const LARGEST: f32 = 1e30;
 
 /// Coefficients of `h` in ascending powers of the depth, `-(-1)ᵏ (k + 1) / (2 (k + 3)!)`; up to a depth of 1 the first
 /// one left out is below 2e-7 of the sum.
@@ -52,6 +55,8 @@ pub struct Part<S: Simd> {
 /// in the density emitter.
 #[derive(Clone, Copy, Debug)]
 pub struct Sums<S: Simd, const PER_LENGTH: bool> {
+    /// What lengths are multiplied by, see [`DEEPEST`].
+    scale: f32x8<S>,
     depth: f32x8<S>,
     light: [f32x8<S>; 3],
     skew: [f32x8<S>; 3],
@@ -65,30 +70,44 @@ impl<S: Simd, const PER_LENGTH: bool> Sums<S, PER_LENGTH> {
     #[inline(always)]
     pub fn new(simd: S) -> Self {
         let zero = [f32x8::splat(simd, 0.0); 3];
-        Self { depth: zero[0], light: zero, skew: zero, lowest: [f32x8::splat(simd, f32::MAX); 3], highest: zero }
+        let one = f32x8::splat(simd, 1.0);
+        Self {
+            scale: one,
+            depth: zero[0],
+            light: zero,
+            skew: zero,
+            lowest: [f32x8::splat(simd, f32::MAX); 3],
+            highest: zero,
+        }
     }
 
     /// Adds the part of the segments in the next piece, whose scalars lie above all before.
     #[inline(always)]
     pub fn add(&mut self, simd: S, part: &Part<S>) {
         let zero = f32x8::splat(simd, 0.0);
-        let half = part.length * 0.5;
         let is_inside = part.length.simd_gt(zero);
+        let mut length = part.length * self.scale;
         // Half the depth that the part would have with the extinction of either end; without length there is none,
         // however large the extinction.
-        let start = is_inside.select((part.extinction[0] * half).min(0.5 * DEEPEST), zero);
-        let end = is_inside.select((part.extinction[1] * half).min(0.5 * DEEPEST), zero);
+        let ends = part.extinction.map(|extinction| is_inside.select(extinction, zero));
+        let [mut start, mut end] = ends.map(|extinction| (extinction * (length * 0.5)).min(LARGEST));
+        let is_too_deep = (start + end).simd_gt(DEEPEST);
+        if is_too_deep.any_true() {
+            let shorter = is_too_deep.select(f32x8::splat(simd, DEEPEST) / (start + end), f32x8::splat(simd, 1.0));
+            self.shorten(shorter);
+            (length, start, end) = (length * shorter, start * shorter, end * shorter);
+        }
         let (depth, tilt) = (start + end, end - start);
         // Of the change of color over the part: what it adds to the integral beyond the mean, and to the skew.
         let (change_in_light, change_in_skew) = if PER_LENGTH {
-            (zero, part.length * depth * (1.0 / 12.0))
+            (zero, length * depth * (1.0 / 12.0))
         } else {
             (tilt * (1.0 / 6.0), (depth * depth).mul_sub(5.0, tilt * tilt) * (1.0 / 60.0))
         };
         for c in 0..3 {
             let (low, high) = (part.color[0][c], part.color[1][c]);
             let (change, mean) = (high - low, (low + high) * 0.5);
-            let light = change.mul_add(change_in_light, mean * if PER_LENGTH { part.length } else { depth });
+            let light = change.mul_add(change_in_light, mean * if PER_LENGTH { length } else { depth });
             let mut skew = change * change_in_skew;
             if PER_LENGTH {
                 // Where the extinction rises, less than half of the length lies behind half of the depth.
@@ -102,6 +121,17 @@ impl<S: Simd, const PER_LENGTH: bool> Sums<S, PER_LENGTH> {
             self.light[c] += light;
         }
         self.depth += depth;
+    }
+
+    /// Multiplies all lengths so far, and those to come.
+    #[inline(always)]
+    fn shorten(&mut self, share: f32x8<S>) {
+        self.scale *= share;
+        self.depth *= share;
+        for c in 0..3 {
+            self.light[c] *= share;
+            self.skew[c] *= share * share;
+        }
     }
 
     /// Light and opacity of the segments.

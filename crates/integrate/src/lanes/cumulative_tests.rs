@@ -125,6 +125,42 @@ fn sums_agree_with_the_means_in_64_bits() {
     }
 }
 
+/// Of parts deeper than squares can be, each counts by its depth, not all alike.
+#[test]
+fn deep_parts_count_by_their_depth() {
+    let color = [[0.0, 0.1, 0.2, 0.9], [0.5, 0.9, 0.9, 0.8], [1.0, 0.2, 0.0, 0.1]];
+    let transfer =
+        TransferFunction::new(&color, &[[0.0, 1e9], [0.3, 4e9], [0.3, 2e10], [0.8, 1e8], [1.0, 3e9]]).unwrap();
+    let integrals = RunningIntegrals::new(&transfer);
+    let segments: Vec<[f32; 3]> =
+        segments().iter().map(|&[front, back, length]| [front, back, length.max(1e-3)]).collect();
+    for (_, level) in [("best", Level::new()), ("baseline", Level::baseline())] {
+        let (mut scattered, mut glowing) = ([0.0f64; 2], [0.0f64; 2]);
+        for lanes in segments.chunks_exact(8) {
+            let known = |model| -> Vec<_> {
+                let segment = |&[front, back, length]: &[f32; 3]| Segment {
+                    scalar_front: f64::from(front),
+                    scalar_back: f64::from(back),
+                    chord_length: f64::from(length),
+                };
+                lanes.iter().map(|lane| integrals.integrate(model, &segment(lane))).collect()
+            };
+            check(
+                &integrate!(level, false, transfer, lanes),
+                &known(OpticalModel::DensityEmitter),
+                |_| 1.0,
+                &mut scattered,
+            );
+            let light = known(OpticalModel::Emitter);
+            let brightest = |lane: usize| light[lane].rgb.into_iter().fold(0.0, f64::max);
+            check(&integrate!(level, true, transfer, lanes), &light, brightest, &mut glowing);
+        }
+        // An emitter's light is a difference here: what is dense shines through what is not.
+        assert!(scattered[0] < 4e-6 && glowing[0] < 1e-3, "{scattered:?} {glowing:?}");
+        assert!(scattered[1] == 0.0 && glowing[1] == 0.0, "{scattered:?} {glowing:?}");
+    }
+}
+
 #[test]
 fn extremes_stay_finite() {
     for (_, level) in [("best", Level::new()), ("baseline", Level::baseline())] {

@@ -10,7 +10,7 @@ use fastrand::Rng;
 
 use super::Target;
 
-pub use pictures::{exr, exr_of, png, png_chunks};
+pub use pictures::{exr, exr_header, exr_of, png, png_chunks};
 pub use vtu::{Compressor, Encoding, Values, VtuWriter};
 
 /// A file of a target, which its reader takes.

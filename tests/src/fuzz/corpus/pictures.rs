@@ -76,6 +76,37 @@ pub fn png(rng: &mut Rng) -> Vec<u8> {
     png_chunks(&chunks)
 }
 
+/// The header of a flat OpenEXR picture of floats, written attribute by attribute; the end of the header is there, no block is.
+///
+/// - `size`: width and height, also such as no picture has
+/// - `names`: of the channels, in the order of the alphabet
+/// - `compression`: by number
+pub fn exr_header<N: AsRef<str>>([width, height]: [i32; 2], names: &[N], compression: u8) -> Vec<u8> {
+    let mut out = vec![0x76, 0x2f, 0x31, 0x01, 2, 0, 0, 0];
+    let mut attribute = |name: &str, kind: &str, value: &[u8]| {
+        out.extend(
+            [name.as_bytes(), b"\0", kind.as_bytes(), b"\0", &(value.len() as u32).to_le_bytes(), value].concat(),
+        );
+    };
+    let mut channels = Vec::new();
+    for name in names {
+        let pixel_type = [2_i32, 0, 1, 1];
+        channels.extend([name.as_ref().as_bytes(), b"\0", &pixel_type.map(i32::to_le_bytes).concat()].concat());
+    }
+    channels.push(0);
+    let window = [0, 0, width.wrapping_sub(1), height.wrapping_sub(1)].map(i32::to_le_bytes).concat();
+    attribute("channels", "chlist", &channels);
+    attribute("compression", "compression", &[compression]);
+    attribute("dataWindow", "box2i", &window);
+    attribute("displayWindow", "box2i", &window);
+    attribute("lineOrder", "lineOrder", &[0]);
+    attribute("pixelAspectRatio", "float", &1_f32.to_le_bytes());
+    attribute("screenWindowCenter", "v2f", &[0; 8]);
+    attribute("screenWindowWidth", "float", &1_f32.to_le_bytes());
+    out.push(0);
+    out
+}
+
 /// A flat OpenEXR picture, written attribute by attribute: R, G, B and A or one more, floats, uncompressed.
 pub fn exr(rng: &mut Rng) -> Vec<u8> {
     exr_of(0, rng)
@@ -87,28 +118,7 @@ pub fn exr_of(compression: u8, rng: &mut Rng) -> Vec<u8> {
     let names: &[&str] = if rng.bool() { &["A", "B", "G", "R"] } else { &["B", "G", "R", "Z.extra"] };
     // Lines a block, of each compression.
     let lines = [1, 1, 1, 16, 32, 16, 32, 32, 32, 256];
-    let mut out = [0x76, 0x2f, 0x31, 0x01, 2, 0, 0, 0].to_vec();
-    let mut attribute = |name: &str, kind: &str, value: &[u8]| {
-        out.extend(
-            [name.as_bytes(), b"\0", kind.as_bytes(), b"\0", &(value.len() as u32).to_le_bytes(), value].concat(),
-        );
-    };
-    let mut channels = Vec::new();
-    for name in names {
-        let pixel_type = [2_i32, 0, 1, 1];
-        channels.extend([name.as_bytes(), b"\0", &pixel_type.map(i32::to_le_bytes).concat()].concat());
-    }
-    channels.push(0);
-    let window = [0, 0, width - 1, height - 1].map(i32::to_le_bytes).concat();
-    attribute("channels", "chlist", &channels);
-    attribute("compression", "compression", &[compression]);
-    attribute("dataWindow", "box2i", &window);
-    attribute("displayWindow", "box2i", &window);
-    attribute("lineOrder", "lineOrder", &[0]);
-    attribute("pixelAspectRatio", "float", &1_f32.to_le_bytes());
-    attribute("screenWindowCenter", "v2f", &[0; 8]);
-    attribute("screenWindowWidth", "float", &1_f32.to_le_bytes());
-    out.push(0);
+    let mut out = exr_header([width, height], names, compression);
     let step = lines[usize::from(compression % 10)];
     let blocks: Vec<(i32, Vec<u8>)> = (0..height)
         .step_by(step)
