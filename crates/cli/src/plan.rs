@@ -59,6 +59,7 @@ fn plan(args: &PlanArgs, bar: &Bar) -> Result<Said, Failure> {
     said.warnings.extend(field.field.warnings.iter().cloned());
     said.warnings.extend(field.on_mesh.warning());
     said.warnings.extend(completed.warnings);
+    said.warnings.extend(field.precision_warnings(&plan));
     if !blank.is_empty() {
         said.warnings.push(format!("the picture will be blank: {}", blank.join("; ")));
     }

@@ -2,7 +2,6 @@
 
 use tetrascope_integrate::{IsosurfaceError, MethodError};
 use tetrascope_scene::PlanError;
-use tetrascope_view::LinearImage;
 
 /// Why a picture was not drawn.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -36,12 +35,6 @@ impl From<IsosurfaceError> for RenderError {
     fn from(error: IsosurfaceError) -> Self {
         PlanError::from(error).into()
     }
-}
-
-/// A picture to be filled.
-pub(crate) fn empty_picture([width, height]: [u32; 2]) -> Result<LinearImage, PlanError> {
-    let bytes = 16 * u64::from(width) * u64::from(height);
-    LinearImage::try_transparent(width, height).ok_or(PlanError::Memory { what: "the picture", bytes })
 }
 
 /// Runs `work` on the number of threads that the plan asks for.

@@ -18,7 +18,7 @@ use tetrascope_scene::{Counts, OrderReport, Plan, PlanError, Progress, Rendered,
 
 use crate::RenderError;
 use crate::domain::table_domain;
-use crate::error::{empty_picture, on_threads};
+use crate::error::on_threads;
 use crate::geometry::{ClipCell, PixelBox, PixelSpace, Points, is_outside_rectangle};
 use crate::grid::{Bins, Tile, TileGrid};
 use ray::{Fragment, Ray, RayComposer};
@@ -155,7 +155,7 @@ fn render_here(mesh: &TetMesh, scalars: &[f64], plan: &Plan, progress: &dyn Prog
     let done = AtomicU64::new(0);
     let total = grid.len() as u64;
     // Before the work: afterwards it would be lost.
-    let mut image = empty_picture(space.size)?;
+    let mut image = plan.empty_picture()?;
     let tiles: Vec<Vec<[f32; 4]>> = (0..grid.len())
         .into_par_iter()
         .map(|index| {

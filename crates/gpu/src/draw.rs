@@ -15,9 +15,7 @@ use std::time::Duration;
 
 use tetrascope_integrate::Integration;
 use tetrascope_order::Guarantee;
-use tetrascope_scene::{
-    Counts, GpuPath, OrderReport, Plan, PlanError, Progress, Rendered, Stage, Stopwatch, TargetBits,
-};
+use tetrascope_scene::{Counts, GpuPath, OrderReport, Plan, Progress, Rendered, Stage, Stopwatch, TargetBits};
 use tetrascope_shaders::layout::TILE_OPEN;
 use tetrascope_view::{LinearImage, View};
 use wgpu::Buffer;
@@ -161,9 +159,7 @@ impl<'a> Drawing<'a> {
         let state = sort.state(kept.slice(&renderer.gpu));
         let mut waiting = parts(size, renderer.gpu.largest_binding(), Target::largest_side(&renderer.gpu), state);
         waiting.reverse();
-        let bytes = 16 * u64::from(size[0]) * u64::from(size[1]);
-        let mut image =
-            LinearImage::try_transparent(size[0], size[1]).ok_or(PlanError::Memory { what: "the picture", bytes })?;
+        let mut image = self.plan.empty_picture()?;
         let mut counts = Counts { cells: u64::from(renderer.mesh.cell_count), cyclic, ..Counts::default() };
         let mut stages = Vec::new();
         let mut is_first = true;

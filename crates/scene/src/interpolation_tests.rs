@@ -82,6 +82,10 @@ fn fans_of_colors_have_their_own() {
         );
     }
     assert!(complete("[quality]\nintegration = \"vertex\"\ninterpolation = \"exact\"").is_ok());
+    // Without perspective there is one way alone.
+    let orthographic =
+        "[camera]\nprojection = \"orthographic\"\n[quality]\nintegration = \"vertex\"\ninterpolation = \"screen\"";
+    assert!(complete(orthographic).is_ok());
 }
 
 #[test]

@@ -7,9 +7,9 @@ use tetrascope_integrate::{
     Integration, Isosurfaces, OpticalModel, Phong, SurfaceShading, TableSettings, TransferFunction,
 };
 use tetrascope_order::{CycleRemedy, OrderMethod};
-use tetrascope_view::View;
+use tetrascope_view::{LinearImage, View};
 
-use crate::{Backend, GpuOptions, Interpolation};
+use crate::{Backend, GpuOptions, Interpolation, PlanError};
 
 /// What is to be computed for one picture: numbers and methods, no file names and no "auto".
 ///
@@ -163,6 +163,16 @@ impl Plan {
         self.model.is_commutative() && self.isosurfaces.is_none()
     }
 
+    /// A transparent picture of the plan's size, to be filled.
+    ///
+    /// # Errors
+    /// [`PlanError::Memory`] if it cannot be had.
+    pub fn empty_picture(&self) -> Result<LinearImage, PlanError> {
+        let (width, height) = (self.view.width, self.view.height);
+        let bytes = 16 * u64::from(width) * u64::from(height);
+        LinearImage::try_transparent(width, height).ok_or(PlanError::Memory { what: "the picture", bytes })
+    }
+
     /// Sizes of the integration's table: those of the plan, else [`TableSettings::of`] the method; `None` if it has none.
     pub fn table_settings(&self) -> Option<TableSettings> {
         let usual = TableSettings::of(self.integration)?;
@@ -259,7 +269,7 @@ pub trait Progress: Sync {
     /// Calls of one stage may arrive out of order.
     fn report(&self, stage: Stage, done: u64, total: u64);
 
-    /// Whether the work is to be given up. Asked between tiles and steps; where it is, back ends give [`crate::PlanError::Interrupted`] and no
+    /// Whether the work is to be given up. Asked between tiles and steps; where it is, back ends give [`PlanError::Interrupted`] and no
     /// picture.
     /// Whoever says so once goes on saying it.
     fn is_stopped(&self) -> bool {
@@ -269,9 +279,9 @@ pub trait Progress: Sync {
     /// Nothing, or that the work is to be given up.
     ///
     /// # Errors
-    /// [`crate::PlanError::Interrupted`] where [`Self::is_stopped`] says so.
-    fn go_on(&self) -> Result<(), crate::PlanError> {
-        if self.is_stopped() { Err(crate::PlanError::Interrupted) } else { Ok(()) }
+    /// [`PlanError::Interrupted`] where [`Self::is_stopped`] says so.
+    fn go_on(&self) -> Result<(), PlanError> {
+        if self.is_stopped() { Err(PlanError::Interrupted) } else { Ok(()) }
     }
 }
 

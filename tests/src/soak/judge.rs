@@ -294,9 +294,17 @@ fn agreement(field: &VolumeField<'_>, plan: &Plan, rendered: &Rendered) -> (Agre
     if plan.integration.needs_fan() && reaches_the_eye(field, plan) {
         return (Agreement::Soundness, "soundness: fans of cells that reach the plane of the eye are cut");
     }
-    if plan.lighting.is_some() && plan.gradients() == Gradients::Points && has_thin_cells(field) {
+    let (agreement, why) = agreement_of_order(field, plan, rendered);
+    let is_lit_in_thin_cells =
+        plan.lighting.is_some() && plan.gradients() == Gradients::Points && has_thin_cells(field);
+    if agreement == Agreement::Light && is_lit_in_thin_cells {
         return (Agreement::Opacity, "opacity: normals change within less than 32 bits know of a place");
     }
+    (agreement, why)
+}
+
+/// What is left of it by the order of cells, and where isosurfaces are met.
+fn agreement_of_order(field: &VolumeField<'_>, plan: &Plan, rendered: &Rendered) -> (Agreement, &'static str) {
     if plan.commutes() {
         return (Agreement::Light, "light");
     }

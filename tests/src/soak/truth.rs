@@ -93,6 +93,9 @@ pub(super) fn envelope(
 /// Rays next to one, of which nearly all must come out right in the order of whole cells for the one to be where cells meet.
 const NEIGHBORS: u32 = 16;
 
+/// Rays a rounding away whose light in that order a pixel may have as well.
+const VARIANTS: u32 = 32;
+
 /// Adds the light of rays whose cells are blended in the plan's order of whole cells, where that order is right for the rays about them.
 ///
 /// A ray that runs along an edge, or in a face's plane, is in one or another of the cells about it as each of their faces rounds. No ray meets the inside
@@ -135,10 +138,21 @@ fn add_by_cells(
             *right += u32::from(off <= 0.5 * limit);
         }
     }
-    let rays = tracer.trace(pixels);
-    let shader = tracer.shader(plan, &Silent).ok()?;
-    for (ray, channels) in found.iter_mut().enumerate().filter(|(ray, _)| right[*ray] * 4 >= NEIGHBORS * 3) {
-        widen(channels, shader.light_by_rank(&rays, ray, rank));
+    let steps = steps(mesh, reach);
+    // Such a ray may change sides anywhere on its way, by ever smaller roundings.
+    for number in 0..=VARIANTS {
+        let size = if number == 0 { 0.0 } else { 10_f64.powf(random.between(-6.0, 0.0)) };
+        let turn = [random.between(-1.0, 1.0), random.between(-1.0, 1.0)].map(|d| d * reach.pixels * size);
+        let view = turned(&plan.view, turn);
+        // Where cells were left out, ranks are of others.
+        let moved = moved_mesh(mesh, &steps, size, &mut random).filter(|m| m.tetrahedra().len() == ranks.len());
+        let moved = if number % 2 == 1 { moved } else { None };
+        let tracer = RayTracer::new(moved.as_ref().unwrap_or(mesh), scalars, &view).ok()?;
+        let rays = tracer.trace(pixels);
+        let shader = tracer.shader(plan, &Silent).ok()?;
+        for (ray, channels) in found.iter_mut().enumerate().filter(|(ray, _)| right[*ray] * 4 >= NEIGHBORS * 3) {
+            widen(channels, shader.light_by_rank(&rays, ray, rank));
+        }
     }
     Some(())
 }

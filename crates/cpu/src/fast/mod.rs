@@ -54,7 +54,7 @@ use tetrascope_scene::{
 };
 
 use crate::RenderError;
-use crate::error::{empty_picture, on_threads};
+use crate::error::on_threads;
 use crate::geometry::{PixelSpace, Points};
 use crate::grid::{Bins, TileGrid};
 use cell::{NOWHERE, Outline};
@@ -234,7 +234,7 @@ impl CpuRenderer {
         }
         progress.go_on()?;
         // Before the work: afterwards it would be lost.
-        let mut image = empty_picture(space.size)?;
+        let mut image = plan.empty_picture()?;
 
         let mut scratch = self.scratch.lock().unwrap_or_else(PoisonError::into_inner).take().unwrap_or_default();
         let Scratch { points, outlines, records, tiles, held } = &mut scratch;

@@ -55,7 +55,8 @@ impl Scene {
         decisions: &mut Vec<Decision>,
     ) -> Result<Interpolation, SceneError> {
         let Some(asked) = self.interpolation else { return Ok(Interpolation::Exact) };
-        if asked != Interpolation::Exact && integration.needs_fan() {
+        let chosen = self.chosen_interpolation();
+        if chosen != Interpolation::Exact && integration.needs_fan() {
             return Err(SceneError::Conflict {
                 key: "quality.interpolation",
                 value: asked.to_string(),
@@ -65,7 +66,6 @@ impl Scene {
                 remedy: "use quality.interpolation = \"exact\" or another integration, such as \"exact\"",
             });
         }
-        let chosen = self.chosen_interpolation();
         let (choice, reason) = if chosen != asked {
             (chosen, "there is no perspective to correct: all ways give the same")
         } else if asked != Interpolation::Exact && self.backend == Some(Backend::Reference) {
