@@ -29,7 +29,7 @@ pub(super) struct Reach {
 }
 
 /// Scenes that are asked for, besides the one itself.
-const SCENES: u32 = 32;
+const SCENES: u32 = 64;
 /// These are samples: as much as this share of their width may be missing at either end.
 const MISSING: f64 = 0.5;
 
@@ -61,33 +61,37 @@ pub(super) fn envelope(
     let mut random = Random::new(0x7A17);
     add(mesh, scalars, &plan, pixels, &mut found)?;
     for number in 0..SCENES {
-        // Small ones too, as what is between two extremes may be neither.
-        let share = [1.0, 0.5, 0.25, 0.1][number as usize % 4];
-        let turn = [random.between(-1.0, 1.0), random.between(-1.0, 1.0)].map(|d| d * reach.pixels * share);
+        let [turn, points, values, transfer] = [(); 4].map(|()| share(&mut random));
+        let turn = [random.between(-1.0, 1.0), random.between(-1.0, 1.0)].map(|d| d * reach.pixels * turn);
         let mut moved = plan.clone();
         moved.view = turned(&plan.view, turn);
-        if number & 4 != 0 {
-            moved = with_transfer_moved(&moved, scene, shift * share, &mut random)?;
+        if transfer > 0.0 {
+            moved = with_transfer_moved(&moved, scene, shift * transfer, &mut random)?;
         }
         let all = random.between(-1.0, 1.0);
         let scalars: Vec<f64> = scalars
             .iter()
-            .map(|scalar| scalar + shift * share * if number & 8 != 0 { all } else { random.between(-1.0, 1.0) })
+            .map(|scalar| scalar + shift * values * if number % 2 == 0 { all } else { random.between(-1.0, 1.0) })
             .collect();
-        if number & 16 != 0 {
-            // A cell that has no volume there is no sample.
-            if let Some(mesh) = moved_mesh(mesh, &steps, share, &mut random) {
-                add(&mesh, &scalars, &moved, pixels, &mut found)?;
-            }
-        } else {
-            add(mesh, &scalars, &moved, pixels, &mut found)?;
-        }
+        // A cell that has no volume there is no sample.
+        let moved_mesh = if points > 0.0 { moved_mesh(mesh, &steps, points, &mut random) } else { None };
+        add(moved_mesh.as_ref().unwrap_or(mesh), &scalars, &moved, pixels, &mut found)?;
     }
     for [low, high] in found.iter_mut().flatten() {
         let missing = MISSING * (*high - *low);
         (*low, *high) = (*low - missing, *high + missing);
     }
     Some(found)
+}
+
+/// How much of the reach one number is moved by: small shares too, since what is between two extremes may be neither and a needle is thinner
+/// than the reach, and often nothing, since a ray that is turned by a thousandth of a pixel misses what lies within a lattice of points.
+fn share(random: &mut Random) -> f64 {
+    match random.unit() {
+        choice if choice < 0.3 => 0.0,
+        choice if choice < 0.5 => 1.0,
+        _ => 10_f64.powf(random.between(-3.0, 0.0)),
+    }
 }
 
 /// Rays next to one, of which nearly all must come out right in the order of whole cells for the one to be where cells meet.
