@@ -17,10 +17,10 @@ use crate::geometry::PixelSpace;
 /// A cell's fan on the screen; pixels are counted from the record's reference pixel.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Fan {
-    /// For every corner around the thick vertex: on which side of the line from the thick vertex to the corner a pixel lies, as a
-    /// plane; not negative beyond it, counted around the fan.
-    spokes: [Plane; 5],
-    /// The three color channels over the triangle that follows each spoke.
+    /// Of each triangle the lines from the thick vertex to its two corners: on which side a pixel lies, as a plane, not negative beyond the
+    /// line, counted around the fan. Not shared by neighbors: a thick vertex on the outline leaves a triangle without area out.
+    spokes: [[Plane; 2]; 4],
+    /// The three color channels over each triangle.
     colors: [[Plane; 3]; 4],
     /// Number of triangles.
     count: usize,
@@ -78,7 +78,7 @@ impl FanSetUp<'_> {
         let has_color = self.model == OpticalModel::DensityEmitter;
         let peak = if has_color { color } else { light.rgb };
         let mut fan = Fan {
-            spokes: [[0.0; 3]; 5],
+            spokes: [[[0.0; 3]; 2]; 4],
             colors: [[[0.0; 3]; 3]; 4],
             count: 0,
             peak: peak.map(|x| x as f32),
@@ -119,8 +119,7 @@ impl FanSetUp<'_> {
             if !planes.iter().flatten().all(|x| x.is_finite()) {
                 continue;
             }
-            fan.spokes[fan.count] = side(to_p);
-            fan.spokes[fan.count + 1] = side(to_q);
+            fan.spokes[fan.count] = [side(to_p), side(to_q)];
             fan.colors[fan.count] = planes;
             fan.count += 1;
         }
@@ -149,8 +148,10 @@ impl Fan {
             return Light { rgb: [color[0] * share, color[1] * share, color[2] * share], opacity };
         }
         for triangle in 0..self.count {
-            let begins = plane(simd, &self.spokes[triangle], sample).simd_ge(f32x8::splat(simd, 0.0));
-            let ends = plane(simd, &self.spokes[triangle + 1], sample).simd_lt(f32x8::splat(simd, 0.0));
+            let [begin, end] = &self.spokes[triangle];
+            let begins = plane(simd, begin, sample).simd_ge(f32x8::splat(simd, 0.0));
+            // On the line between two triangles both have one color.
+            let ends = plane(simd, end, sample).simd_le(f32x8::splat(simd, 0.0));
             let inside = begins & ends;
             for ((channel, over), [low, high]) in color.iter_mut().zip(&self.colors[triangle]).zip(&self.bounds) {
                 let between = plane(simd, over, sample).max(*low).min(*high);

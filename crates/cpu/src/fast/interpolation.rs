@@ -38,9 +38,10 @@ pub(crate) struct PerspectiveFan {
 pub(crate) struct ScreenFan {
     /// The thick vertex, from the record's reference pixel.
     center: [f32; 2],
-    /// For every corner around it: positive for pixels beyond the line to the corner, counted around the fan; per column, per row.
-    spokes: [[f32; 2]; 5],
-    /// The front scalar's slope over the triangle that follows each spoke.
+    /// Of each triangle the lines to its two corners: positive for pixels beyond the line, counted around the fan; per column, per row. Not shared by
+    /// neighbors: a thick vertex on the outline leaves a triangle without area out.
+    spokes: [[[f32; 2]; 2]; 4],
+    /// The front scalar's slope over each triangle.
     slopes: [[f32; 2]; 4],
     /// Number of triangles.
     count: usize,
@@ -128,7 +129,7 @@ impl ScreenFan {
         }
         let mut fan = Self {
             center: (center - reference).to_array().map(|x| x as f32),
-            spokes: [[0.0; 2]; 5],
+            spokes: [[[0.0; 2]; 2]; 4],
             slopes: [[0.0; 2]; 4],
             count: 0,
             front: (thick.scalar_front - record.scalar_reference) as f32,
@@ -144,8 +145,7 @@ impl ScreenFan {
                 continue;
             }
             let side = |spoke: DVec2| [-spoke.y, spoke.x].map(|x| (x * area.signum()) as f32);
-            fan.spokes[fan.count] = side(to_p);
-            fan.spokes[fan.count + 1] = side(to_q);
+            fan.spokes[fan.count] = [side(to_p), side(to_q)];
             // The slope g with g . to_p and g . to_q the differences of the scalar.
             let (dp, dq) = (scalars[i] - thick.scalar_front, scalars[j] - thick.scalar_front);
             let slope = DVec2::new(dp * to_q.y - dq * to_p.y, dq * to_p.x - dp * to_q.x) / area;
@@ -163,8 +163,10 @@ impl ScreenFan {
         // Pixels that rounding puts beside all triangles keep what they have.
         let mut front = sample.front;
         for triangle in 0..self.count {
-            let begins = linear(simd, self.spokes[triangle], [x, y], 0.0).simd_ge(zero);
-            let ends = linear(simd, self.spokes[triangle + 1], [x, y], 0.0).simd_lt(zero);
+            let [begin, end] = self.spokes[triangle];
+            let begins = linear(simd, begin, [x, y], 0.0).simd_ge(zero);
+            // On the line between two triangles both have one scalar.
+            let ends = linear(simd, end, [x, y], 0.0).simd_le(zero);
             front = (begins & ends).select(linear(simd, self.slopes[triangle], [x, y], self.front), front);
         }
         let share = (sample.nearness * self.inverse_nearness).max(0.0).min(1.0);
