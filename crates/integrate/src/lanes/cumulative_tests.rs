@@ -31,6 +31,11 @@ fn segments() -> Vec<[f32; 3]> {
         .collect()
 }
 
+fn in_64_bits(&[front, back, length]: &[f32; 3]) -> Segment {
+    let [scalar_front, scalar_back, chord_length] = [front, back, length].map(f64::from);
+    Segment { scalar_front, scalar_back, chord_length }
+}
+
 /// Eight segments, cut at the control points as a renderer does it.
 macro_rules! integrate {
     ($level:expr, $per_length:literal, $transfer:expr, $segments:expr) => {{
@@ -101,12 +106,7 @@ fn sums_agree_with_the_means_in_64_bits() {
             let integrals = RunningIntegrals::new(&transfer);
             for lanes in segments.chunks_exact(8) {
                 let known = |model| -> Vec<_> {
-                    let segment = |&[front, back, length]: &[f32; 3]| Segment {
-                        scalar_front: f64::from(front),
-                        scalar_back: f64::from(back),
-                        chord_length: f64::from(length),
-                    };
-                    lanes.iter().map(|lane| integrals.integrate(model, &segment(lane))).collect()
+                    lanes.iter().map(|lane| integrals.integrate(model, &in_64_bits(lane))).collect()
                 };
                 let light = known(OpticalModel::DensityEmitter);
                 let got = integrate!(level, false, transfer, lanes);
@@ -137,14 +137,8 @@ fn deep_parts_count_by_their_depth() {
     for (_, level) in [("best", Level::new()), ("baseline", Level::baseline())] {
         let (mut scattered, mut glowing) = ([0.0f64; 2], [0.0f64; 2]);
         for lanes in segments.chunks_exact(8) {
-            let known = |model| -> Vec<_> {
-                let segment = |&[front, back, length]: &[f32; 3]| Segment {
-                    scalar_front: f64::from(front),
-                    scalar_back: f64::from(back),
-                    chord_length: f64::from(length),
-                };
-                lanes.iter().map(|lane| integrals.integrate(model, &segment(lane))).collect()
-            };
+            let known =
+                |model| -> Vec<_> { lanes.iter().map(|lane| integrals.integrate(model, &in_64_bits(lane))).collect() };
             check(
                 &integrate!(level, false, transfer, lanes),
                 &known(OpticalModel::DensityEmitter),
