@@ -149,8 +149,8 @@ fn add_by_cells(
         let turn = [random.between(-1.0, 1.0), random.between(-1.0, 1.0)].map(|d| d * reach.pixels * size);
         let view = turned(&plan.view, turn);
         // Where cells were left out, ranks are of others.
-        let moved = moved_mesh(mesh, &steps, size, &mut random).filter(|m| m.tetrahedra().len() == ranks.len());
-        let moved = if number % 2 == 1 { moved } else { None };
+        let is_whole = |moved: &TetMesh| moved.tetrahedra().len() == ranks.len();
+        let moved = if number % 2 == 1 { moved_mesh(mesh, &steps, size, &mut random).filter(is_whole) } else { None };
         let tracer = RayTracer::new(moved.as_ref().unwrap_or(mesh), scalars, &view).ok()?;
         let rays = tracer.trace(pixels);
         let shader = tracer.shader(plan, &Silent).ok()?;

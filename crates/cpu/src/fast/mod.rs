@@ -282,7 +282,7 @@ impl CpuRenderer {
             && plan.interpolation == Interpolation::Exact
             && (optics.sharpness().may_be_beyond_32_bits(longest_chord)
                 || (plan.model.needs_extinction() && Sharpness::is_chord_beyond_32_bits(densest, longest_chord)));
-        let sharp = if is_sharp { sharp::integrator(plan.integration, &optics) } else { None };
+        let sharp = if is_sharp { sharp::integrator(plan.integration, &optics)? } else { None };
         let setup = SetUp {
             renderer: self,
             points,

@@ -1,7 +1,7 @@
 //! Cells in which the transfer function changes faster than 32 bits know a scalar, or is denser than they know a depth, integrated in f64, ray by ray.
 
 use fearless_simd::{Simd, f32x8, prelude::*};
-use tetrascope_integrate::{Integration, Integrator, OpticalModel, Segment};
+use tetrascope_integrate::{Integration, Integrator, MethodError, OpticalModel, Segment};
 
 use super::cell::CarefulCell;
 use super::optics::Optics;
@@ -9,16 +9,19 @@ use super::sample::{LANES, Light, Sample};
 use crate::geometry::PixelSpace;
 
 /// What such cells are integrated with; `None` for methods that sample the transfer function, which have no digits to lose.
-pub(crate) fn integrator(integration: Integration, optics: &Optics) -> Option<Integrator> {
+///
+/// # Errors
+/// As [`Integrator::new`].
+pub(crate) fn integrator(integration: Integration, optics: &Optics) -> Result<Option<Integrator>, MethodError> {
     let has_corrections = matches!(optics.model, OpticalModel::DensityEmitter | OpticalModel::Emitter);
     let integration = match integration {
         Integration::Exact => Integration::Exact,
         Integration::Cumulative if has_corrections => Integration::Cumulative,
         // As `Job::draw`: without light, or without opacity, running integrals are exact.
         Integration::Cumulative => Integration::Exact,
-        _ => return None,
+        _ => return Ok(None),
     };
-    Integrator::new(integration, optics.transfer(), optics.model, None, &|_, _| ()).ok()
+    Integrator::new(integration, optics.transfer(), optics.model, None, &|_, _| ()).map(Some)
 }
 
 /// Such a cell, and all that its light depends on.
