@@ -11,8 +11,8 @@ use std::path::{Path, PathBuf};
 
 use glam::DVec3;
 use tetrascope::{
-    Backend, Cells, Choice, Dataset, Error, LinearImage, Picture, SceneFile, Silent, UnstructuredCells, Volume,
-    is_blank, render_volume,
+    Backend, Cells, Choice, Dataset, Error, LinearImage, Picture, ReadOptions, SceneFile, Silent, UnstructuredCells,
+    Volume, is_blank, render_volume,
 };
 use tetrascope_tests::pictures::{Worst, largest, mean_opacity};
 use tetrascope_tests::{fuzz::check_whole, shared};
@@ -110,7 +110,7 @@ fn draw(path: &Path, backend: Backend) -> Result<Picture, Error> {
     // The one PLOT3D solution here belongs to the grid of the same name.
     let solution = path.with_extension("q");
     let is_grid = path.extension().is_some_and(|e| e == "xyz") && solution.is_file();
-    let volume = Volume::load(path, is_grid.then_some(solution.as_path()))?;
+    let volume = Volume::load(path, &ReadOptions::with_solution(is_grid.then_some(solution.as_path())))?;
     render_volume(&volume, &scene(backend), &Silent)
 }
 
@@ -238,7 +238,7 @@ fn hostile_files_look_the_same_to_both_renderers() {
 }
 
 fn load(folder: &Path, name: &str) -> Volume {
-    Volume::load(&folder.join(name), None).unwrap()
+    Volume::load(&folder.join(name), &ReadOptions::default()).unwrap()
 }
 
 fn picture_of(volume: &Volume) -> LinearImage {

@@ -7,11 +7,12 @@
 //!
 //! ```no_run
 //! use std::path::Path;
-//! use tetrascope_io::{read_mesh, write_image};
+//! use tetrascope_io::{ReadOptions, read_mesh, write_image};
 //! use tetrascope_view::LinearImage;
 //!
 //! # fn main() -> Result<(), tetrascope_io::IoError> {
-//! let loaded = read_mesh(Path::new("bluntfinxyz.bin"), Some(Path::new("bluntfinq.bin")))?;
+//! let options = ReadOptions { solution: Some("bluntfinq.bin".into()), ..ReadOptions::default() };
+//! let loaded = read_mesh(Path::new("bluntfinxyz.bin"), &options)?;
 //! assert_eq!(loaded.dataset.points.len(), 40_960);
 //! assert_eq!(loaded.dataset.point_arrays[0].name, "Density");
 //! for warning in &loaded.warnings {
@@ -28,6 +29,7 @@
 mod bytes;
 mod error;
 mod foreign;
+mod grid;
 mod heights;
 mod open;
 mod picture;
@@ -42,7 +44,7 @@ pub use picture::{
     PictureFile, PngImage, check_writable, encode_png, end_writing, make_folder, read_exr, read_picture, read_png,
     write_bytes, write_exr, write_files, write_image, write_png,
 };
-pub use read::{Loaded, MeshReader, Source};
+pub use read::{Loaded, MeshReader, ReadOptions, Source, StepChoice};
 pub use vtk::write_vtu;
 
 /// Compiles the example of the README.

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use crate::read::printable;
-use crate::{IoError, Loaded, MeshReader, Source, foreign, plot3d::PLOT3D, vtk};
+use crate::{IoError, Loaded, MeshReader, ReadOptions, Source, foreign, plot3d::PLOT3D, vtk};
 
 /// All readers, in the order in which they are asked whether they recognize a file.
 ///
@@ -15,14 +15,19 @@ pub fn readers() -> &'static [&'static dyn MeshReader] {
 
 /// Reads a mesh of any known format, found by its content first and by its extension where the content does not tell.
 ///
-/// `solution` is a second file that belongs to the mesh: PLOT3D's q file. A file whose content is of another format than
+/// `options` say what the file does not: PLOT3D's q file, which time step. A file whose content is of another format than
 /// its extension says is read by its content, with a warning.
 ///
 /// # Errors
 /// [`IoError::Read`] when the system does not give the file, [`IoError::Unsupported`] when no reader takes it (the message
 /// lists those there are), [`IoError::Invalid`] when it is broken.
-pub fn read_mesh(path: &Path, solution: Option<&Path>) -> Result<Loaded, IoError> {
-    let source = Source { path: path.to_owned(), bytes: read_whole(path)?, solution: solution.map(Path::to_owned) };
+pub fn read_mesh(path: &Path, options: &ReadOptions) -> Result<Loaded, IoError> {
+    let source = |bytes: Vec<u8>| Source { path: path.to_owned(), bytes, options: options.clone() };
+    let by_path = readers().iter().copied().find(|reader| reader.takes(path));
+    if let Some(reader) = by_path {
+        return finished(&source(Vec::new()), reader);
+    }
+    let source = source(read_whole(path)?);
     let extension = source.extension();
     let expected = reader_of_extension(&extension);
     let recognized = readers().iter().copied().find(|reader| reader.recognizes(&source.bytes));
@@ -34,9 +39,7 @@ pub fn read_mesh(path: &Path, solution: Option<&Path>) -> Result<Loaded, IoError
         },
     };
 
-    let mut loaded = reader.read(&source)?;
-    loaded.warnings = loaded.warnings.into_iter().map(printable).collect();
-    loaded.format = printable(loaded.format);
+    let mut loaded = finished(&source, reader)?;
     let named_otherwise =
         expected.is_some_and(|other| other.name() != reader.name()) || foreign::is_foreign_extension(&extension);
     // Extensions that two readers share say nothing against either.
@@ -46,11 +49,23 @@ pub fn read_mesh(path: &Path, solution: Option<&Path>) -> Result<Loaded, IoError
             reader.name()
         ));
     }
-    if solution.is_some() && reader.name() != PLOT3D.name() {
+    Ok(loaded)
+}
+
+/// What a reader gives, with what is the same for all.
+fn finished(source: &Source, reader: &dyn MeshReader) -> Result<Loaded, IoError> {
+    let mut loaded = reader.read(source)?;
+    loaded.warnings = loaded.warnings.into_iter().map(printable).collect();
+    loaded.format = printable(loaded.format);
+    if source.options.solution.is_some() && reader.name() != PLOT3D.name() {
         loaded.warnings.push(format!(
             "the solution file was not read: only PLOT3D keeps its arrays in a second file, and this is {}",
             reader.name()
         ));
+    }
+    // Of a file with steps the reader has chosen one.
+    if loaded.times.is_empty() {
+        source.step(&[])?;
     }
     Ok(loaded)
 }
@@ -102,7 +117,7 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join(name);
         std::fs::write(&path, bytes).unwrap();
-        let message = read_mesh(&path, None).unwrap_err().to_string();
+        let message = read_mesh(&path, &ReadOptions::default()).unwrap_err().to_string();
         assert!(message.contains(name), "{message}");
         message
     }
@@ -130,10 +145,10 @@ mod tests {
     #[test]
     fn missing_files_and_folders() {
         let folder = tempfile::tempdir().unwrap();
-        let missing = read_mesh(&folder.path().join("missing.vtu"), None).unwrap_err();
+        let missing = read_mesh(&folder.path().join("missing.vtu"), &ReadOptions::default()).unwrap_err();
         assert!(matches!(missing, IoError::Read { .. }), "{missing}");
         assert!(missing.to_string().contains("missing.vtu"));
-        let is_folder = read_mesh(folder.path(), None).unwrap_err();
+        let is_folder = read_mesh(folder.path(), &ReadOptions::default()).unwrap_err();
         assert!(is_folder.to_string().contains("folder"), "{is_folder}");
     }
 }

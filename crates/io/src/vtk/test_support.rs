@@ -14,7 +14,7 @@ pub(super) fn shared() -> Option<PathBuf> {
 
 /// Reads bytes as a file of this name, by its content or else its extension.
 pub(super) fn read(name: &str, bytes: &[u8]) -> Result<Loaded, IoError> {
-    let source = Source { path: name.into(), bytes: bytes.to_vec(), solution: None };
+    let source = Source { path: name.into(), bytes: bytes.to_vec(), ..Default::default() };
     let readers: [&dyn MeshReader; 2] = [&LEGACY, &VTU];
     let reader = readers
         .iter()

@@ -44,11 +44,7 @@ impl MeshReader for LegacyVtk {
         let version = header(&mut lexer)?;
         let loaded = grid::read(lexer)?;
         let encoding = if loaded.is_binary { "binary" } else { "ASCII" };
-        Ok(Loaded {
-            dataset: loaded.dataset,
-            format: format!("VTK legacy {version}, {encoding}"),
-            warnings: loaded.warnings,
-        })
+        Ok(Loaded::without_time(loaded.dataset, format!("VTK legacy {version}, {encoding}"), loaded.warnings))
     }
 }
 

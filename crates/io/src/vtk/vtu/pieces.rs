@@ -34,7 +34,7 @@ pub(super) fn assemble(source: &Source, file: &VtuFile<'_>) -> Result<Loaded, Io
     let mut said = HashSet::new();
     warnings.retain(|warning: &String| said.insert(warning.clone()));
     let dataset = Dataset { points, cells, point_arrays: point_arrays.arrays, cell_arrays: cell_arrays.arrays };
-    Ok(Loaded { dataset, format: describe(file), warnings })
+    Ok(Loaded::without_time(dataset, describe(file), warnings))
 }
 
 fn describe(file: &VtuFile<'_>) -> String {

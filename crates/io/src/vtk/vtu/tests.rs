@@ -368,7 +368,7 @@ fn vtu_text_and_bit_arrays_are_left_out_with_a_warning() {
 
 #[test]
 fn vtu_more_points_than_32_bits_count_is_unsupported() {
-    let source = crate::Source { path: "big.vtu".into(), bytes: Vec::new(), solution: None };
+    let source = crate::Source { path: "big.vtu".into(), bytes: Vec::new(), ..Default::default() };
     let mut builder = super::super::cells::CellBuilder::new(&source);
     assert!(builder.begin_piece("Cells", u32::MAX as usize - 5, 5).is_ok());
     let error = builder.begin_piece("Cells", u32::MAX as usize - 5, 6).unwrap_err();
@@ -408,7 +408,7 @@ fn vtu_many_pieces_are_not_looked_through_again_and_again() {
 /// Arrays that are compressed, or that share an offset, come to a stated number of numbers.
 #[test]
 fn vtu_arrays_have_a_limit_together() {
-    let source = crate::Source { path: "a.vtu".into(), bytes: ascii_file().into_bytes(), solution: None };
+    let source = crate::Source { path: "a.vtu".into(), bytes: ascii_file().into_bytes(), ..Default::default() };
     let parsed = super::xml::parse(&source).unwrap();
     parsed.spend(1 << 20).unwrap();
     let error = parsed.spend(1).unwrap_err();
