@@ -21,7 +21,6 @@ const UNPACK: &str = "unpack it and name the file inside";
 const TO_CELLS: &str = "ParaView can turn it into a .vtu file (filter Append Datasets, then Save Data)";
 
 const FOREIGN: &[Foreign] = &[
-    Foreign { name: "Gmsh", extensions: &["msh"], magic: &[b"$MeshFormat", b"$NOD"], remedy: CONVERT },
     Foreign {
         name: "Exodus",
         extensions: &["e", "ex2", "exo", "exii", "gen"],
@@ -75,7 +74,7 @@ pub(crate) fn refuse_by_extension(path: &Path, readers: &[&dyn MeshReader]) -> I
                 format!("this content, or the extension .{extension},")
             },
             remedy: format!(
-                "{}; Gmsh (.msh), Exodus (.e, .ex2, .exo), NRRD and VTI, VTR, VTS are not read yet: ParaView or \
+                "{}; Exodus (.e, .ex2, .exo), NRRD and VTI, VTR, VTS are not read yet: ParaView or \
                  meshio can convert them to .vtu",
                 formats_read(readers)
             ),

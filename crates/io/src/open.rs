@@ -3,13 +3,13 @@
 use std::path::Path;
 
 use crate::read::printable;
-use crate::{IoError, Loaded, MeshReader, ReadOptions, Source, foreign, plot3d::PLOT3D, vtk};
+use crate::{IoError, Loaded, MeshReader, ReadOptions, Source, foreign, gmsh::GMSH, plot3d::PLOT3D, vtk};
 
 /// All readers, in the order in which they are asked whether they recognize a file.
 ///
 /// PLOT3D is last: its files begin with nothing that tells them apart, so that it judges by whether all sizes fit.
 pub fn readers() -> &'static [&'static dyn MeshReader] {
-    static READERS: [&dyn MeshReader; 3] = [&vtk::VTU, &vtk::LEGACY, &PLOT3D];
+    static READERS: [&dyn MeshReader; 4] = [&vtk::VTU, &vtk::LEGACY, &GMSH, &PLOT3D];
     &READERS
 }
 
@@ -133,12 +133,11 @@ mod tests {
         let png = refusal("picture.vtu", b"\x89PNG\r\n\x1a\n....");
         assert!(png.contains("PNG picture") && png.contains("PLOT3D"), "{png}");
         assert!(refusal("empty.vtu", b"").contains("empty (0 bytes)"));
-        let gmsh = refusal("block.msh", b"$MeshFormat\n4.1 0 8\n");
-        assert!(gmsh.contains("Gmsh is not supported") && gmsh.contains("meshio"), "{gmsh}");
+        assert!(refusal("fluent.msh", b"(0 \"Fluent\")").contains("Fluent"));
         assert!(refusal("can.whatever", b"CDF\x02....").contains("Exodus"));
         assert!(refusal("volume.nhdr", b"NRRD0004\n").contains("NRRD"));
         assert!(refusal("unrecognizable.vti", b"what is this").contains("VTI"));
-        assert!(refusal("notes.txt", b"nothing of the kind").contains(".msh"));
+        assert!(refusal("notes.txt", b"nothing of the kind").contains(".exo"));
         assert!(refusal("noextension", b"nothing of the kind").contains("no extension"));
     }
 

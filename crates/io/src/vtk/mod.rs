@@ -6,7 +6,7 @@
 mod cell_types;
 mod cells;
 mod legacy;
-mod named;
+pub(crate) mod named;
 mod scalars;
 mod vtu;
 mod write;
