@@ -68,6 +68,8 @@ fn samples() -> Vec<Vec<u8>> {
         "data/hostile/no_arrays.vtu",
         "data/hostile/nan_inf_scalars_binary.vtu",
         "data/hostile/corrupt_zlib.vtu",
+        "data/gmsh/sfepy_msh_tetra.msh",
+        "data/hostile/huge_count.msh",
     ];
     let mut samples: Vec<_> = files.iter().filter_map(|f| shared(f)).map(|path| fs::read(path).unwrap()).collect();
     samples.push(b"2 2 2\n4*0.0 4*1.0\n2*0 2*1 2*0 2*1\n8*1.5D0\n".to_vec());

@@ -3,8 +3,8 @@
 use proptest::prelude::*;
 
 use super::sections::Version;
-use super::synthetic::{file, read, small, styles};
-use super::tests::cells;
+use super::synthetic::{file, read, styles};
+use super::tests::{cells, small};
 use crate::{Loaded, ReadOptions};
 
 fn seeds() -> Vec<Vec<u8>> {

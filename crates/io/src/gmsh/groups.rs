@@ -16,10 +16,10 @@ pub(super) fn described(source: &Source, sections: &[Section<'_>]) -> String {
             let line = numbers.line();
             let Some((tags, _)) = line.split_once('"') else { continue };
             let tags: Vec<i64> = tags.split_ascii_whitespace().filter_map(|word| word.parse().ok()).collect();
-            let (dimension, tag) = match tags.as_slice() {
-                &[dimension, tag] => (dimension, tag),
+            let (dimension, tag) = match *tags.as_slice() {
+                [dimension, tag] => (dimension, tag),
                 // Version 2.0 has no dimension.
-                &[tag] => (-1, tag),
+                [tag] => (-1, tag),
                 _ => continue,
             };
             let of = match dimension {

@@ -14,6 +14,7 @@ use crate::{IoError, Loaded, MeshReader, Source};
 use elements::Elements;
 use entities::Entities;
 use nodes::Nodes;
+use number_map::NumberMap;
 use numbers::Numbers;
 use sections::{Form, Section, Version};
 use values::Mesh;
@@ -176,7 +177,9 @@ impl<'a> Parts<'a> {
         elements.warn(&mut warnings);
 
         let chosen = views::choose(source, &self.views, &mut warnings)?;
-        let numbers_of_elements = elements.map();
+        let chosen_views = || chosen.views.iter().filter_map(|&view| self.views.get(view));
+        let needs_elements = chosen_views().any(|view| view.owner != Owner::Nodes);
+        let numbers_of_elements = if needs_elements { elements.map() } else { NumberMap::none() };
         let mesh = Mesh {
             cells: &elements.cells,
             types: &elements.types,
@@ -184,7 +187,7 @@ impl<'a> Parts<'a> {
             elements: &numbers_of_elements,
             point_count: nodes.points.len(),
         };
-        let columns = values::columns(source, &mesh, chosen.views.iter().filter_map(|&view| self.views.get(view)))?;
+        let columns = values::columns(source, &mesh, chosen_views())?;
         let is_used = points_of_volumes(&elements, nodes.points.len());
         let (mut point_arrays, mut cell_arrays) = (NamedArrays::default(), NamedArrays::default());
         for column in columns {

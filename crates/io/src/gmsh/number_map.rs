@@ -45,6 +45,11 @@ impl NumberMap {
         }
     }
 
+    /// Of no numbers.
+    pub(super) fn none() -> Self {
+        Self::Sorted(Vec::new())
+    }
+
     /// The index of a number.
     pub(super) fn get(&self, number: i64) -> Option<u32> {
         match self {

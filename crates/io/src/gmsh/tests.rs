@@ -3,7 +3,7 @@
 use tetrascope_mesh::{CellKind, Cells, DataArray, UnstructuredCells, decompose};
 
 use super::sections::Version;
-use super::synthetic::{Mesh, Style, View, file, read, small, styles};
+use super::synthetic::{Mesh, Style, View, file, read, styles};
 use crate::{Loaded, MeshReader, ReadOptions, StepChoice};
 
 pub(super) fn cells(loaded: &Loaded) -> &UnstructuredCells {
@@ -19,6 +19,48 @@ fn at(step: usize) -> ReadOptions {
 
 fn array<'a>(arrays: &'a [DataArray], name: &str) -> &'a DataArray {
     arrays.iter().find(|array| array.name == name).unwrap_or_else(|| panic!("no array {name} in {arrays:?}"))
+}
+
+/// A file with a tetrahedron, a prism and a triangle, whose numbers are neither small nor in order, and data of all kinds at two
+/// steps.
+pub(super) fn small() -> (Mesh, Vec<View>) {
+    let places = [[0., 0., 0.], [1., 0., 0.], [0., 1., 0.], [0., 0., 1.], [1., 0., 1.], [0., 1., 1.], [0.25, 0.25, 2.]];
+    let numbers = [70, 3, 1_000_000, 5, 12, 8, 2];
+    let [a, b, c, d, e, f, g] = numbers;
+    let mesh = Mesh {
+        nodes: numbers.into_iter().zip(places).collect(),
+        blocks: vec![
+            (2, 4, 0, 2, vec![(11, vec![a, c, b])]),
+            (3, 6, 9, 6, vec![(20, vec![a, b, c, d, e, f])]),
+            (3, 7, 0, 4, vec![(15, vec![d, e, f, g])]),
+        ],
+    };
+    let nodal = |step: i64, factor: f64| View {
+        kind: "NodeData",
+        name: "height of it",
+        step,
+        time: factor / 4.0,
+        components: 1,
+        tuples: mesh.nodes.iter().map(|&(number, place)| (number, None, vec![place[2] * factor])).collect(),
+    };
+    let vectors = View {
+        kind: "ElementData",
+        name: "flow",
+        step: 1,
+        time: 0.5,
+        components: 3,
+        tuples: vec![(15, None, vec![1.0, 2.0, 3.0]), (20, None, vec![4.0, 5.0, 6.0])],
+    };
+    let corners = View {
+        kind: "ElementNodeData",
+        name: "jump",
+        step: 1,
+        time: 0.5,
+        components: 1,
+        tuples: vec![(15, Some(4), vec![1.0, 2.0, 3.0, 4.0]), (20, Some(6), vec![9.0, 8.0, 7.0, 3.0, 2.0, 1.0])],
+    };
+    let views = vec![nodal(0, 1.0), nodal(1, 2.0), vectors, corners];
+    (mesh, views)
 }
 
 const TEXT: Style = Style { version: Version::V41, binary: None };
