@@ -3,6 +3,7 @@
 use tetrascope_mesh::{CellKind, decompose};
 
 use super::element_types::element_type;
+use super::middles::middles;
 use super::synthetic::{Mesh, View, file, read, styles};
 use super::tests::cells;
 use crate::ReadOptions;
@@ -53,50 +54,6 @@ const WEDGE_MIDS: &[&[usize]] = &[
 ];
 const PYRAMID_MIDS: &[&[usize]] =
     &[&[0, 1], &[0, 3], &[0, 4], &[1, 2], &[1, 4], &[2, 3], &[2, 4], &[3, 4], &[0, 1, 2, 3]];
-
-/// The same for VTK, from the pictures of its file format's description.
-fn vtk_mids(kind: CellKind) -> &'static [&'static [usize]] {
-    match kind {
-        CellKind::QuadraticTetrahedron => &[&[0, 1], &[1, 2], &[2, 0], &[0, 3], &[1, 3], &[2, 3]],
-        CellKind::QuadraticHexahedron | CellKind::TriquadraticHexahedron => &[
-            &[0, 1],
-            &[1, 2],
-            &[2, 3],
-            &[3, 0],
-            &[4, 5],
-            &[5, 6],
-            &[6, 7],
-            &[7, 4],
-            &[0, 4],
-            &[1, 5],
-            &[2, 6],
-            &[3, 7],
-            &[0, 3, 7, 4],
-            &[1, 2, 6, 5],
-            &[0, 1, 5, 4],
-            &[3, 2, 6, 7],
-            &[0, 1, 2, 3],
-            &[4, 5, 6, 7],
-            &[0, 1, 2, 3, 4, 5, 6, 7],
-        ],
-        CellKind::QuadraticWedge | CellKind::BiquadraticQuadraticWedge => &[
-            &[0, 1],
-            &[1, 2],
-            &[2, 0],
-            &[3, 4],
-            &[4, 5],
-            &[5, 3],
-            &[0, 3],
-            &[1, 4],
-            &[2, 5],
-            &[0, 1, 4, 3],
-            &[1, 2, 5, 4],
-            &[2, 0, 3, 5],
-        ],
-        CellKind::QuadraticPyramid => &[&[0, 1], &[1, 2], &[2, 3], &[3, 0], &[0, 4], &[1, 4], &[2, 4], &[3, 4]],
-        _ => &[],
-    }
-}
 
 /// Type, corners, nodes between, the kind, its volume and number of tetrahedra.
 type Case = (i64, &'static [[f64; 3]], &'static [&'static [usize]], CellKind, f64, usize);
@@ -151,8 +108,9 @@ fn every_element_with_a_volume() {
             assert_eq!(rows.kinds, [kind], "type {number}");
             let points = &loaded.dataset.points;
             let place = |slot: usize| points[rows.connectivity[slot] as usize].to_array();
-            for (slot, of) in (corners.len()..rows.connectivity.len()).zip(vtk_mids(kind)) {
-                assert_eq!(place(slot), stretch(middle(corners, of)), "type {number}, point {slot}");
+            for (slot, of) in (corners.len()..rows.connectivity.len()).zip(middles(kind)) {
+                let of: Vec<usize> = of.iter().map(|&corner| corner.into()).collect();
+                assert_eq!(place(slot), stretch(middle(corners, &of)), "type {number}, point {slot}");
             }
             // What belongs to a node of the element came to its point.
             let same = &loaded.dataset.point_arrays[0];
@@ -167,6 +125,28 @@ fn every_element_with_a_volume() {
             let is_reduced = nodes > rows.connectivity.len();
             assert_eq!(loaded.warnings.len(), 1 + usize::from(is_reduced), "type {number}: {:?}", loaded.warnings);
         }
+    }
+}
+
+/// As solvers write linear fields on curved meshes: a value for each corner alone.
+#[test]
+fn values_of_corners_alone() {
+    for &(number, corners, mids, kind, ..) in CASES.iter().filter(|case| (11..20).contains(&case.0)) {
+        let nodes = element_type(number).unwrap().nodes;
+        let places = corners.iter().copied().chain(mids.iter().map(|of| middle(corners, of))).take(nodes);
+        let mesh = Mesh {
+            nodes: (1..).zip(places).collect(),
+            blocks: vec![(3, 1, 0, number, vec![(1, (1..=nodes.try_into().unwrap()).collect())])],
+        };
+        let tuples = vec![(1, Some(corners.len().try_into().unwrap()), corners.concat())];
+        let view = View { kind: "ElementNodeData", name: "place", step: 0, time: 0.0, components: 3, tuples };
+        let loaded = read("e.msh", &file(styles()[1], &mesh, &[view]), &ReadOptions::default()).unwrap();
+        let place = &loaded.dataset.point_arrays[0];
+        for &point in &cells(&loaded).connectivity {
+            let own = [0, 1, 2].map(|component| place.component(component)[point as usize]);
+            assert_eq!(own, loaded.dataset.points[point as usize].to_array(), "{kind:?}");
+        }
+        assert!(loaded.warnings.iter().any(|warning| warning.contains("means between")), "{:?}", loaded.warnings);
     }
 }
 

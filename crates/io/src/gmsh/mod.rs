@@ -24,6 +24,7 @@ mod element_types;
 mod elements;
 mod entities;
 mod groups;
+mod middles;
 mod nodes;
 mod number_map;
 mod numbers;

@@ -5,6 +5,7 @@ use std::collections::HashMap;
 use tetrascope_mesh::{ArrayValues, CellKind, UnstructuredCells};
 
 use super::element_types::element_type;
+use super::middles::middles;
 use super::number_map::NumberMap;
 use super::numbers::Numbers;
 use super::views::{Owner, View};
@@ -111,7 +112,7 @@ impl Column {
         }
         if self.odd > 0 {
             warnings.push(format!(
-                "`{name}` has another number of values than points in {} cells, of which the corners alone got theirs",
+                "`{name}` has another number of values than points in {} cells; those of the corners were taken, and their means between them",
                 self.odd
             ));
         }
@@ -169,15 +170,32 @@ impl Column {
         let known = mesh.types.get(cell).and_then(|&number| element_type(number.into()));
         let nodes = known.map_or(row.len(), |known| known.nodes);
         let order = known.and_then(|known| known.order);
-        let fitting =
-            if count == nodes { row.len() } else { known.map_or(0, |known| corner_count(known.kind)).min(count) };
-        self.odd += usize::from(count != nodes);
-        for (slot, &point) in row.iter().enumerate().take(fitting) {
+        let components = self.components;
+        let tuple_of = |slot: usize| {
             let node = order.map_or(Some(slot), |order| order.get(slot).map(|&node| usize::from(node)));
-            let start = node.unwrap_or(usize::MAX).saturating_mul(self.components);
-            if let Some(tuple) = values.get(start..start.saturating_add(self.components)) {
-                self.average(point as usize, tuple);
+            let start = node.unwrap_or(usize::MAX).saturating_mul(components);
+            values.get(start..start.saturating_add(components))
+        };
+        let kind = cells.kinds.get(cell).copied().unwrap_or(CellKind::Flat);
+        let corners = corner_count(kind);
+        if count == nodes {
+            for (slot, &point) in row.iter().enumerate() {
+                if let Some(tuple) = tuple_of(slot) {
+                    self.average(point as usize, tuple);
+                }
             }
+            return;
+        }
+        self.odd += 1;
+        if count < corners {
+            return;
+        }
+        // A linear field on an element of a higher order: between the corners it is their mean.
+        let between = middles(kind).iter().filter_map(|of| mean(of.iter().map(|&corner| tuple_of(corner.into()))));
+        let own = (0..corners).filter_map(|corner| tuple_of(corner).map(<[f64]>::to_vec));
+        let tuples: Vec<Vec<f64>> = own.chain(between).collect();
+        for (&point, tuple) in row.iter().zip(&tuples) {
+            self.average(point as usize, tuple);
         }
     }
 
@@ -200,6 +218,15 @@ fn read_tuple(numbers: &mut Numbers<'_>, length: usize, tuple: &mut Vec<f64>) ->
         tuple.push(numbers.real("a value")?);
     }
     Ok(())
+}
+
+/// The mean of some tuples, each component by itself; nothing where one is not there.
+fn mean<'a>(tuples: impl Iterator<Item = Option<&'a [f64]>>) -> Option<Vec<f64>> {
+    let tuples: Vec<&[f64]> = tuples.collect::<Option<_>>()?;
+    let share = 1.0 / tuples.len() as f64;
+    let components = tuples.first()?.len();
+    let component = |place: usize| tuples.iter().filter_map(|tuple| tuple.get(place)).map(|value| value * share).sum();
+    Some((0..components).map(component).collect())
 }
 
 /// Corners of a kind, which come first among its points; 0 where they need not.
