@@ -25,6 +25,12 @@ pub(crate) struct Unpacked {
     pub(crate) more: bool,
 }
 
+/// Streams of bzip2 that may follow each other without much in them: a table of 3.6 MB is made for each.
+const SHORT_STREAMS: usize = 1024;
+
+/// Bytes that every further one must hold, on the average; bzip2 fills 100 000 before it begins another.
+const STREAM_BYTES: usize = 1 << 16;
+
 impl Packing {
     /// What its streams begin with.
     pub(crate) fn magic(self) -> &'static [u8] {
@@ -50,9 +56,15 @@ impl Packing {
     pub(crate) fn inflate(self, packed: &[u8], skip: usize, wanted: usize) -> Result<Unpacked, String> {
         let damaged = |error: io::Error| format!("its {} stream is damaged ({error})", self.label());
         let mut rest = packed;
-        let mut skip = skip;
+        let mut left_to_skip = skip;
         let mut bytes = Vec::new();
-        loop {
+        for streams in 0_usize.. {
+            let inflated = skip - left_to_skip + bytes.len();
+            if self == Self::Bzip2 && streams > SHORT_STREAMS + inflated / STREAM_BYTES {
+                return Err(format!(
+                    "it is cut into {streams} streams or more, which hold {inflated} bytes; at most {SHORT_STREAMS} may be short"
+                ));
+            }
             // What follows the last member and is none is padding: the programs that unpack files let it be, too.
             if !rest.starts_with(self.magic()) {
                 let nothing_yet = rest.len() == packed.len();
@@ -64,12 +76,12 @@ impl Packing {
             let (member_ended, behind) = match self {
                 Self::Gzip => {
                     let mut decoder = GzDecoder::new(rest);
-                    let ended = take(&mut decoder, &mut skip, wanted, &mut bytes).map_err(damaged)?;
+                    let ended = take(&mut decoder, &mut left_to_skip, wanted, &mut bytes).map_err(damaged)?;
                     (ended, decoder.into_inner())
                 }
                 Self::Bzip2 => {
                     let mut decoder = BzDecoder::new(rest);
-                    let ended = take(&mut decoder, &mut skip, wanted, &mut bytes).map_err(damaged)?;
+                    let ended = take(&mut decoder, &mut left_to_skip, wanted, &mut bytes).map_err(damaged)?;
                     (ended, decoder.into_inner())
                 }
             };
@@ -78,6 +90,7 @@ impl Packing {
             }
             rest = behind;
         }
+        Ok(Unpacked { bytes, more: true })
     }
 }
 
@@ -150,6 +163,16 @@ mod tests {
             wrong_sum[at] ^= 1;
             assert!(packing.inflate(&wrong_sum, 0, 33).is_err());
         }
+    }
+
+    #[test]
+    fn many_short_streams() {
+        let stream = packed(Packing::Bzip2, b"a");
+        let streams = |count: usize| Packing::Bzip2.inflate(&stream.repeat(count), 5, 9999);
+        assert_eq!(streams(1000).unwrap().bytes.len(), 995);
+        assert!(streams(1100).unwrap_err().contains("1025 streams"));
+        let gzip = packed(Packing::Gzip, b"a").repeat(1100);
+        assert_eq!(Packing::Gzip.inflate(&gzip, 5, 9999).unwrap().bytes.len(), 1095);
     }
 
     #[test]

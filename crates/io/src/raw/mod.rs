@@ -47,7 +47,7 @@ pub(crate) struct Raw;
 pub(crate) const ARRAY_NAME: &str = "ImageFile";
 
 /// Samples that a byte of a compressed file may stand for: a byte of DEFLATE stands for 1032 bytes at most, one of bzip2 for many more.
-const PACKED_SAMPLES: usize = 256;
+const PACKED_SAMPLES: usize = 128;
 
 /// Samples that a compressed file may hold whatever its length: small files are mostly small volumes with little in them.
 const PACKED_SAMPLES_ALWAYS: usize = 1 << 22;
@@ -61,9 +61,10 @@ impl RawVolume {
         Self { size, sample, order: ByteOrder::Little, components: 1, spacing: [1.0; 3], origin: [0.0; 3], skip: 0 }
     }
 
-    /// What a file's name says, `neghip_64x64x64_uint8.raw` for instance, if the file is as long as that says.
+    /// What a file's name says, `neghip_64x64x64_uint8.raw` for instance, if the file is as long as that says or is a compressed one.
     pub fn of_name(path: &Path, length: u64) -> Option<Self> {
-        name::volume(path).filter(|volume| volume.data_size().is_some_and(|size| size as u64 == length))
+        let fits = |volume: &Self| volume.data_size().is_some_and(|size| size as u64 == length);
+        name::volume(path).filter(|volume| name::is_packed(path) || fits(volume))
     }
 
     /// Bytes that the samples take; `None` where they are more than can be counted.

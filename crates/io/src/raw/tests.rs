@@ -17,6 +17,12 @@ fn source(name: &str, bytes: &[u8], raw: Option<&str>) -> Source {
     Source { path: name.into(), bytes: bytes.to_vec(), options }
 }
 
+fn packed(bytes: &[u8]) -> Vec<u8> {
+    let mut encoder = flate2::write::GzEncoder::new(Vec::new(), flate2::Compression::default());
+    encoder.write_all(bytes).unwrap();
+    encoder.finish().unwrap()
+}
+
 #[test]
 fn words_of_the_command_line() {
     assert_eq!("64x32x16:uint8".parse(), Ok(RawVolume::new([64, 32, 16], SampleType::U8)));
@@ -105,11 +111,6 @@ fn files_that_are_too_short_or_too_long() {
 
 #[test]
 fn compressed_files() {
-    let packed = |bytes: &[u8]| {
-        let mut encoder = flate2::write::GzEncoder::new(Vec::new(), flate2::Compression::default());
-        encoder.write_all(bytes).unwrap();
-        encoder.finish().unwrap()
-    };
     let bytes: Vec<u8> = (0..125).collect();
     let loaded = RAW.read(&source("n_5x5x5_u8.raw.gz", &packed(&bytes), Some("5x5x5:u8"))).unwrap();
     assert_eq!(loaded.dataset.point_arrays[0].component(0)[124], 124.0);
@@ -138,6 +139,12 @@ fn the_user_and_the_name_come_before_the_content() {
     let loaded = read_mesh(&named, &ReadOptions::default()).unwrap();
     assert_eq!(loaded.warnings.len(), 1);
     assert!(loaded.warnings[0].contains("2x2x2 samples of uint8") && loaded.warnings[0].contains("name"));
+
+    let compressed = write("v_2x2x2_u8.raw.gz", &packed(&[7; 8]));
+    let loaded = read_mesh(&compressed, &ReadOptions::default()).unwrap();
+    assert!(loaded.format.ends_with("gzip") && loaded.warnings.len() == 1, "{:?}", loaded.warnings);
+    let other = read_mesh(&write("v_2x2x2_u8.vtu.gz", &packed(&[7; 8])), &ReadOptions::default()).unwrap_err();
+    assert!(other.to_string().contains("gzip archive"), "{other}");
 
     // A name alone is not enough where the length says otherwise.
     let shorter = read_mesh(&write("v_2x2x3_u8.raw", &[7; 8]), &ReadOptions::default()).unwrap_err();
