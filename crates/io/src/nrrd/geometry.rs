@@ -61,7 +61,7 @@ pub(super) fn grid(
     directions: Option<&Directions>,
     warnings: &mut Vec<String>,
 ) -> Result<RegularGrid, IoError> {
-    let line = Line::all(source, header, axes.sizes.len())?;
+    let line = Line::all(source, header, axes)?;
     let mut steps = [DVec3::ZERO; 3];
     let mut origin = DVec3::ZERO;
     let units = [DVec3::X, DVec3::Y, DVec3::Z];
@@ -112,7 +112,7 @@ pub(super) fn times(
 ) -> Result<Vec<f64>, IoError> {
     let Some(axis) = axes.step_axis() else { return Ok(Vec::new()) };
     let count = axes.sizes.get(axis).copied().unwrap_or_default();
-    let line = Line::all(source, header, axes.sizes.len())?;
+    let line = Line::all(source, header, axes)?;
     let (first, spacing) = match (directions.and_then(|directions| directions.time(axis)), line.get(axis)) {
         (Some(spacing), _) => {
             let origin = header.field("space origin").map(|field| vectors(source, field)).transpose()?;
@@ -152,18 +152,23 @@ struct Line {
 impl Line {
     /// By `spacings`, `axis mins`, `axis maxs` and `centers`; NaN and what is not there count as not known, which makes them 1 apart from 0.
     ///
-    /// Mins and maxs are those of samples where these are nodes, else of the cells around samples, as the library of the format has it.
-    fn all(source: &Source, header: &Header<'_>, axes: usize) -> Result<Vec<Self>, IoError> {
+    /// Mins and maxs are those of samples where these are nodes or steps, else of the cells around samples, as the library of the format has it.
+    fn all(source: &Source, header: &Header<'_>, axes: &Axes) -> Result<Vec<Self>, IoError> {
+        let count = axes.sizes.len();
         let [spacings, mins, maxs] =
-            ["spacings", "axis mins", "axis maxs"].map(|name| header.numbers(source, name, axes));
+            ["spacings", "axis mins", "axis maxs"].map(|name| header.numbers(source, name, count));
         let (spacings, mins, maxs) = (spacings?, mins?, maxs?);
-        let centers = header.words(source, "centers", axes)?;
-        let sizes = header.sizes(source)?;
+        let centers = header.words(source, "centers", count)?;
         let of = |numbers: &Option<Vec<f64>>, axis: usize| {
             numbers.as_ref().and_then(|numbers| numbers.get(axis)).copied().filter(|number| !number.is_nan())
         };
         let line = |(axis, &size): (usize, &usize)| {
-            let node = centers.as_ref().and_then(|words| words.get(axis)).is_some_and(|word| word == "node");
+            let node = match centers.as_ref().and_then(|words| words.get(axis)).map(String::as_str) {
+                Some("node") => true,
+                Some("cell") => false,
+                // A first time of 0 is that of the first step.
+                _ => axes.roles.get(axis) == Some(&Role::Step),
+            };
             let intervals = if node { size.saturating_sub(1).max(1) } else { size } as f64;
             let (min, max) = (of(&mins, axis), of(&maxs, axis));
             let between = min.zip(max).map(|(min, max)| (max - min) / intervals);
@@ -171,7 +176,7 @@ impl Line {
             let half = if node { 0.0 } else { 0.5 * spacing };
             Self { first: min.map_or(0.0, |min| min + half), spacing }
         };
-        Ok(sizes.iter().enumerate().map(line).collect())
+        Ok(axes.sizes.iter().enumerate().map(line).collect())
     }
 }
 

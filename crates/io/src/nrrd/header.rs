@@ -76,18 +76,10 @@ impl<'a> Header<'a> {
 
     /// Takes a header apart. The work is that of its lines alone: the first line that is none of a header ends it.
     pub(super) fn parse(source: &'a Source) -> Result<Self, IoError> {
+        let version = version(&source.bytes)
+            .map_err(|found| source.invalid("line 1", format!("`{found}` is not NRRD and four digits"), MEND))?;
         let mut lines = Lines { rest: &source.bytes, number: 0 };
-        let magic = lines.next().unwrap_or_default();
-        let version = match magic.strip_prefix("NRRD").map(str::trim_end) {
-            Some("00.01") => Some(1),
-            Some(digits) if digits.len() == 4 => digits.parse().ok(),
-            _ => None,
-        };
-        let version = version.ok_or_else(|| {
-            let found: String = magic.chars().take(20).collect();
-            source.invalid("line 1", format!("`{found}` is not NRRD and four digits"), MEND)
-        })?;
-
+        lines.next();
         let mut header = Self { version, fields: BTreeMap::new(), list: Vec::new(), data: None, unknown: None };
         while let Some(line) = lines.next() {
             let number = lines.number;
@@ -215,6 +207,17 @@ impl Field {
     /// An error at this field's line.
     pub(super) fn invalid(&self, source: &Source, problem: impl Into<String>) -> IoError {
         source.invalid(format!("line {}", self.line), problem, MEND)
+    }
+}
+
+/// The digits that a file begins with, or the text that stands there instead.
+fn version(bytes: &[u8]) -> Result<u32, String> {
+    let beginning = bytes.get(..20).unwrap_or(bytes).split(|&byte| byte == b'\n').next().unwrap_or_default();
+    let magic = String::from_utf8_lossy(beginning).trim_end().to_owned();
+    match magic.strip_prefix("NRRD") {
+        Some("00.01") => Ok(1),
+        Some(digits) if digits.len() == 4 => digits.parse().map_err(|_| magic),
+        _ => Err(magic),
     }
 }
 

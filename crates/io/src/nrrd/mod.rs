@@ -175,6 +175,10 @@ fn in_words(header: &Header<'_>, layout: &Layout, axes: &Axes, data: &Data<'_>) 
 }
 
 #[cfg(test)]
+mod file_tests;
+#[cfg(test)]
+mod fuzz_tests;
+#[cfg(test)]
 mod shared_tests;
 #[cfg(test)]
 mod tests;
