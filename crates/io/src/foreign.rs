@@ -27,7 +27,6 @@ const FOREIGN: &[Foreign] = &[
         magic: &[b"CDF\x01", b"CDF\x02", b"CDF\x05", b"\x89HDF\r\n\x1a\n"],
         remedy: CONVERT,
     },
-    Foreign { name: "NRRD", extensions: &["nrrd", "nhdr"], magic: &[b"NRRD000"], remedy: TO_CELLS },
     Foreign { name: "VTI (VTK image data)", extensions: &["vti"], magic: &[], remedy: TO_CELLS },
     Foreign { name: "VTR (VTK rectilinear grid)", extensions: &["vtr"], magic: &[], remedy: TO_CELLS },
     Foreign { name: "VTS (VTK structured grid)", extensions: &["vts"], magic: &[], remedy: TO_CELLS },
@@ -75,6 +74,7 @@ pub(crate) fn refuse_by_extension(path: &Path, readers: &[&dyn MeshReader]) -> I
             },
             remedy: format!(
                 "{}; Exodus (.e, .ex2, .exo), NRRD and VTI, VTR, VTS are not read yet: ParaView or \
+                "{}; Gmsh (.msh), Exodus (.e, .ex2, .exo) and VTI, VTR, VTS are not read yet: ParaView or \
                  meshio can convert them to .vtu",
                 formats_read(readers)
             ),

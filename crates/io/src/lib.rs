@@ -32,12 +32,17 @@ mod foreign;
 mod gmsh;
 mod grid;
 mod heights;
+mod nrrd;
 mod open;
 mod picture;
 mod plot3d;
+mod raw;
 mod read;
+mod sample;
+mod unpack;
 mod vtk;
 
+pub use bytes::ByteOrder;
 pub use error::IoError;
 pub use heights::{read_heights, write_heights};
 pub use open::{file_length, read_mesh, readers};
@@ -45,7 +50,9 @@ pub use picture::{
     PictureFile, PngImage, check_writable, encode_png, end_writing, make_folder, read_exr, read_picture, read_png,
     write_bytes, write_exr, write_files, write_image, write_png,
 };
+pub use raw::RawVolume;
 pub use read::{Loaded, MeshReader, ReadOptions, Source, StepChoice};
+pub use sample::SampleType;
 pub use vtk::write_vtu;
 
 /// Compiles the example of the README.

@@ -4,18 +4,23 @@ use std::path::Path;
 
 use crate::read::printable;
 use crate::{IoError, Loaded, MeshReader, ReadOptions, Source, foreign, gmsh::GMSH, plot3d::PLOT3D, vtk};
+use crate::{
+    IoError, Loaded, MeshReader, RawVolume, ReadOptions, Source, foreign, nrrd::NRRD, plot3d::PLOT3D, raw::RAW, vtk,
+};
 
 /// All readers, in the order in which they are asked whether they recognize a file.
 ///
 /// PLOT3D is last: its files begin with nothing that tells them apart, so that it judges by whether all sizes fit.
 pub fn readers() -> &'static [&'static dyn MeshReader] {
     static READERS: [&dyn MeshReader; 4] = [&vtk::VTU, &vtk::LEGACY, &GMSH, &PLOT3D];
+    static READERS: [&dyn MeshReader; 5] = [&vtk::VTU, &vtk::LEGACY, &NRRD, &RAW, &PLOT3D];
     &READERS
 }
 
 /// Reads a mesh of any known format, found by its content first and by its extension where the content does not tell.
 ///
-/// `options` say what the file does not: PLOT3D's q file, which time step. A file whose content is of another format than
+/// `options` say what the file does not: PLOT3D's q file, which time step, size and type of a raw volume, which is taken for one whatever its
+/// content. So is a file whose name says them and which is as long as that. Any other file whose content is of another format than
 /// its extension says is read by its content, with a warning.
 ///
 /// # Errors
@@ -28,6 +33,9 @@ pub fn read_mesh(path: &Path, options: &ReadOptions) -> Result<Loaded, IoError> 
         return finished(&source(Vec::new()), reader);
     }
     let source = source(read_whole(path)?);
+    if options.raw.is_some() || RawVolume::of_name(path, source.bytes.len() as u64).is_some() {
+        return finished(&source, &RAW);
+    }
     let extension = source.extension();
     let expected = reader_of_extension(&extension);
     let recognized = readers().iter().copied().find(|reader| reader.recognizes(&source.bytes));
@@ -135,7 +143,6 @@ mod tests {
         assert!(refusal("empty.vtu", b"").contains("empty (0 bytes)"));
         assert!(refusal("fluent.msh", b"(0 \"Fluent\")").contains("Fluent"));
         assert!(refusal("can.whatever", b"CDF\x02....").contains("Exodus"));
-        assert!(refusal("volume.nhdr", b"NRRD0004\n").contains("NRRD"));
         assert!(refusal("unrecognizable.vti", b"what is this").contains("VTI"));
         assert!(refusal("notes.txt", b"nothing of the kind").contains(".exo"));
         assert!(refusal("noextension", b"nothing of the kind").contains("no extension"));

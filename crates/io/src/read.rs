@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use tetrascope_mesh::Dataset;
 
-use crate::IoError;
+use crate::{IoError, RawVolume};
 
 /// What a user says of a mesh file besides its name.
 #[derive(Clone, Debug, Default)]
@@ -13,6 +13,8 @@ pub struct ReadOptions {
     pub solution: Option<PathBuf>,
     /// Which of its time steps to read.
     pub step: StepChoice,
+    /// That it is a raw volume, and of what.
+    pub raw: Option<RawVolume>,
 }
 
 /// One time step of those that a file has.
