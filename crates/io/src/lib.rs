@@ -32,6 +32,7 @@ mod foreign;
 mod grid;
 mod heights;
 mod open;
+mod openfoam;
 mod picture;
 mod plot3d;
 mod read;

@@ -3,13 +3,13 @@
 use std::path::Path;
 
 use crate::read::printable;
-use crate::{IoError, Loaded, MeshReader, ReadOptions, Source, foreign, plot3d::PLOT3D, vtk};
+use crate::{IoError, Loaded, MeshReader, ReadOptions, Source, foreign, openfoam::OPENFOAM, plot3d::PLOT3D, vtk};
 
 /// All readers, in the order in which they are asked whether they recognize a file.
 ///
 /// PLOT3D is last: its files begin with nothing that tells them apart, so that it judges by whether all sizes fit.
 pub fn readers() -> &'static [&'static dyn MeshReader] {
-    static READERS: [&dyn MeshReader; 3] = [&vtk::VTU, &vtk::LEGACY, &PLOT3D];
+    static READERS: [&dyn MeshReader; 4] = [&vtk::VTU, &vtk::LEGACY, &OPENFOAM, &PLOT3D];
     &READERS
 }
 
@@ -84,7 +84,7 @@ pub(crate) fn read_whole(path: &Path) -> Result<Vec<u8>, IoError> {
         return Err(IoError::Unsupported {
             path: path.to_owned(),
             what: if metadata.is_dir() { "reading a folder" } else { "reading a device or pipe" }.to_owned(),
-            remedy: "name a regular file".to_owned(),
+            remedy: "name a regular file, or the folder of an OpenFOAM case".to_owned(),
         });
     }
     let bytes = std::fs::read(path).map_err(failed)?;
