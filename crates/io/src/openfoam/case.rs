@@ -91,12 +91,14 @@ fn is_case(folder: &Path) -> bool {
     folder.join("constant/polyMesh").is_dir()
         || folder.join("system/controlDict").is_file()
         || folder.join("processor0").is_dir()
+        || !collated_folders(folder).is_empty()
         || !regions(folder).is_empty()
 }
 
 fn is_region(root: &Path, name: &str) -> bool {
-    root.join("constant").join(name).join("polyMesh").is_dir()
-        || root.join("processor0/constant").join(name).join("polyMesh").is_dir()
+    let collated = collated_folders(root).into_iter().map(|(_, folder)| folder);
+    let mut roots = [root.to_owned(), root.join("processor0")].into_iter().chain(collated);
+    roots.any(|root| root.join("constant").join(name).join("polyMesh").is_dir())
 }
 
 /// Names of the regions whose meshes a folder has, sorted.
@@ -116,12 +118,21 @@ pub(super) fn processor_folders(root: &Path) -> Vec<PathBuf> {
     found.into_iter().map(|(_, name)| root.join(name)).filter(|folder| folder.is_dir()).collect()
 }
 
-/// A folder in which several processors have written one file together, if there is one.
-pub(super) fn collated_folder(root: &Path) -> Option<String> {
-    let is_count = |rest: &str| rest.starts_with(|c: char| c.is_ascii_digit());
-    names_in(root)
-        .into_iter()
-        .find(|name| name.strip_prefix("processors").is_some_and(is_count) && root.join(name).is_dir())
+/// The folders whose files several processors have written together, by the number of processors and the first of those in them:
+/// `processors4`, or `processors4_0-1` and `processors4_2-3`.
+pub(super) fn collated_folders(root: &Path) -> Vec<(u32, PathBuf)> {
+    let numbers = |name: &str| {
+        let name = name.strip_prefix("processors")?;
+        let (count, first) = match name.split_once('_') {
+            Some((count, range)) => (count, range.split_once('-')?.0.parse::<u32>().ok()?),
+            None => (name, 0),
+        };
+        Some((count.parse::<u32>().ok()?, first))
+    };
+    let mut found: Vec<_> =
+        names_in(root).into_iter().filter_map(|name| Some((numbers(&name)?, root.join(name)))).collect();
+    found.sort();
+    found.into_iter().filter(|(_, folder)| folder.is_dir()).map(|((count, _), folder)| (count, folder)).collect()
 }
 
 /// The time folders of a case, by time.

@@ -47,6 +47,8 @@ pub(super) struct FoamFile {
     pub(super) source: Source,
     /// Its header.
     pub(super) header: Header,
+    /// Which processor's block of a larger file it is.
+    pub(super) block: Option<usize>,
 }
 
 /// The path of a file, which may be there compressed instead.
@@ -99,7 +101,7 @@ impl FoamFile {
                 DAMAGED,
             ));
         };
-        Ok(Self { source, header })
+        Ok(Self { source, header, block: None })
     }
 
     /// The content behind the header.
@@ -114,6 +116,10 @@ impl FoamFile {
             format!("byte {}", bad.at)
         } else {
             format!("line {}", before.iter().filter(|&&b| b == b'\n').count() + 1)
+        };
+        let place = match self.block {
+            Some(block) => format!("the block of processor {block}, {place}"),
+            None => place,
         };
         self.source.invalid(place, bad.problem, DAMAGED)
     }

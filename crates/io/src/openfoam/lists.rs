@@ -49,7 +49,7 @@ enum Start {
     Nothing,
 }
 
-impl ListReader<'_, '_> {
+impl<'a> ListReader<'a, '_> {
     fn start(&mut self) -> Result<Start, Bad> {
         let count = match self.words.peek() {
             Some(b'(') => None,
@@ -82,7 +82,7 @@ impl ListReader<'_, '_> {
     }
 
     /// The numbers of a binary list, in the first of `sizes` behind which the list ends with its parenthesis.
-    fn bytes_of(&mut self, count: usize, components: usize, sizes: &[usize]) -> Result<(usize, Vec<u8>), Bad> {
+    fn bytes_of(&mut self, count: usize, components: usize, sizes: &[usize]) -> Result<(usize, &'a [u8]), Bad> {
         let rest = self.words.rest();
         let ends = |size: usize| {
             let length = count.checked_mul(components)?.checked_mul(size)?;
@@ -98,7 +98,7 @@ impl ListReader<'_, '_> {
             return Err(Bad { at: self.words.at, problem });
         };
         self.words.at += length + 1;
-        Ok((size, rest.get(..length).unwrap_or_default().to_vec()))
+        Ok((size, rest.get(..length).unwrap_or_default()))
     }
 
     fn numbers<T: Number>(&self, bytes: &[u8]) -> Vec<T> {
@@ -140,14 +140,13 @@ impl ListReader<'_, '_> {
         let at = self.words.at;
         let stated = [self.header.label_size];
         let (size, bytes) = self.bytes_of(count, 1, if self.header.sizes_known { &stated } else { &[4, 8] })?;
-        let wide: Vec<i64> = match size {
-            4 => self.numbers::<i32>(&bytes).into_iter().map(i64::from).collect(),
-            _ => self.numbers(&bytes),
-        };
-        let label = |(index, &wide): (usize, &i64)| {
+        let label = |(index, wide): (usize, i64)| {
             to_label(wide).ok_or_else(|| Bad { at: at + index * size, problem: format!("{wide} is no label") })
         };
-        wide.iter().enumerate().map(label).collect()
+        match size {
+            4 => self.numbers::<i32>(bytes).into_iter().map(i64::from).enumerate().map(label).collect(),
+            _ => self.numbers::<i64>(bytes).into_iter().enumerate().map(label).collect(),
+        }
     }
 
     fn label(&mut self) -> Result<u32, Bad> {
@@ -215,8 +214,8 @@ impl ListReader<'_, '_> {
             let (size, bytes) =
                 self.bytes_of(count, components, if self.header.sizes_known { &stated } else { &[8, 4] })?;
             return Ok(match size {
-                4 => ArrayValues::F32(self.numbers(&bytes)),
-                _ => ArrayValues::F64(self.numbers(&bytes)),
+                4 => ArrayValues::F32(self.numbers(bytes)),
+                _ => ArrayValues::F64(self.numbers(bytes)),
             });
         }
         let mut values = Vec::new();

@@ -26,7 +26,7 @@ pub(super) struct PolyMesh {
     pub(super) neighbors: Vec<u32>,
     /// Number of cells.
     pub(super) cell_count: usize,
-    /// Whether its files are in binary, and their length as unpacked.
+    /// Whether any of its files is in binary.
     pub(super) binary: bool,
     /// Bytes of all its files, unpacked.
     pub(super) bytes: usize,
@@ -49,7 +49,7 @@ impl PolyMesh {
     /// [`IoError`] with the file and the place.
     pub(super) fn read(
         folders: &MeshFolders<'_>,
-        open: &dyn Fn(&Path) -> Result<FoamFile, IoError>,
+        open: &mut dyn FnMut(&Path) -> Result<FoamFile, IoError>,
     ) -> Result<Self, IoError> {
         let mut mesh = Self::default();
 

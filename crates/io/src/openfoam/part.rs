@@ -7,6 +7,7 @@ use tetrascope_mesh::UnstructuredCells;
 
 use super::{
     case::{TimeFolder, instance_of},
+    collated::Blocks,
     fields::{Budget, Class, Field, Outcome, Owner, field_files},
     file::{DAMAGED, FoamFile, existing, peek_class},
     mesh::{MeshFolders, PolyMesh},
@@ -23,6 +24,10 @@ pub(super) struct PartFolders {
     pub(super) region: Option<String>,
     /// Its number among the regions.
     pub(super) region_number: i32,
+    /// Whether it is what one of several processors has.
+    pub(super) decomposed: bool,
+    /// Which block of the files it is, where processors have written into them together.
+    pub(super) block: Option<usize>,
 }
 
 /// What was read of a part.
@@ -53,6 +58,7 @@ impl Part {
         folders: &PartFolders,
         times: &[TimeFolder],
         step: usize,
+        blocks: &mut Blocks,
         budget: &mut Budget,
         warnings: &mut Vec<String>,
     ) -> Result<Self, IoError> {
@@ -63,12 +69,14 @@ impl Part {
         let until = times.get(..=step).unwrap_or(times);
         let points = instance_of(&folders.root, until, &below, "points");
         let faces = instance_of(&folders.root, until, &below, "faces");
-        let open = |path: &Path| FoamFile::open(&existing(path).unwrap_or_else(|| path.to_owned()));
-        let mesh = PolyMesh::read(&MeshFolders { points: &points, faces: &faces }, &open)?;
+        let mut open = |path: &Path| blocks.open(path, folders.block);
+        let mesh = PolyMesh::read(&MeshFolders { points: &points, faces: &faces }, &mut open)?;
         budget.bytes = budget.bytes.saturating_add(mesh.bytes);
-        let shared = match existing(&faces.join("boundary")) {
-            Some(path) => shared_faces(&mesh, &FoamFile::open(&path)?)?,
-            None => Vec::new(),
+        // Of a whole mesh nothing in there is needed.
+        let boundary = faces.join("boundary");
+        let shared = match folders.decomposed && existing(&boundary).is_some() {
+            true => shared_faces(&mesh, &open(&boundary)?)?,
+            false => Vec::new(),
         };
         let (cells, without_volume) = mesh.cells();
         if without_volume > 0 {
@@ -83,16 +91,30 @@ impl Part {
         if let Some(time) = times.get(step) {
             let folder = folders.root.join(&time.name);
             let folder = folders.region.as_ref().map_or_else(|| folder.clone(), |region| folder.join(region));
-            part.read_fields(&folder, budget, warnings)?;
+            part.read_fields(&folder, folders.block, blocks, budget, warnings)?;
         }
         Ok(part)
     }
 
-    fn read_fields(&mut self, folder: &Path, budget: &mut Budget, warnings: &mut Vec<String>) -> Result<(), IoError> {
+    fn read_fields(
+        &mut self,
+        folder: &Path,
+        block: Option<usize>,
+        blocks: &mut Blocks,
+        budget: &mut Budget,
+        warnings: &mut Vec<String>,
+    ) -> Result<(), IoError> {
         let mut on_faces = Vec::new();
         for (name, path) in field_files(folder) {
-            let Some(class) = peek_class(&path) else { continue };
-            let (owner, components) = match Class::of(&class) {
+            let Some(mut class) = peek_class(&path) else { continue };
+            if block.is_some() {
+                class = blocks.class(&path)?;
+            }
+            let class = Class::of(&class);
+            if !matches!(class, Class::Field { .. }) {
+                blocks.forget(&path);
+            }
+            let (owner, components) = match class {
                 Class::Field { owner, components } => (owner, components),
                 Class::OnFaces => {
                     on_faces.push(name);
@@ -104,7 +126,7 @@ impl Part {
                 Owner::Cell => self.cells.kinds.len(),
                 Owner::Point => self.points.len(),
             };
-            let file = FoamFile::open(&path)?;
+            let file = blocks.open(&path, block)?;
             match Field::read(&file, name, (owner, components), expected, budget)? {
                 Outcome::Field(field) => self.fields.push(field),
                 Outcome::LeftOut(reason) => {

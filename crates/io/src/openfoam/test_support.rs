@@ -1,6 +1,7 @@
 //! Small cases written here in every way that OpenFOAM writes them.
 
 use std::{
+    collections::{BTreeMap, HashMap},
     io::Write,
     path::{Path, PathBuf},
 };
@@ -99,9 +100,11 @@ impl TestMesh {
             key
         };
         let mut all: Vec<(Vec<u32>, i64, Option<i64>)> = Vec::new();
+        let mut places = HashMap::new();
         for (cell, faces) in self.cells.iter().enumerate() {
             for face in faces {
-                match all.iter_mut().find(|(other, ..)| key(other) == key(face)) {
+                let place = *places.entry(key(face)).or_insert(all.len());
+                match all.get_mut(place) {
                     Some((_, _, neighbor)) => *neighbor = Some(cell as i64),
                     None => all.push((face.clone(), cell as i64, None)),
                 }
@@ -214,6 +217,80 @@ impl Style {
 
 fn wrapped(count: usize, bytes: &[u8]) -> Vec<u8> {
     [format!("\n{count}\n(").as_bytes(), bytes, b")\n"].concat()
+}
+
+/// What one processor has of a mesh.
+pub(super) struct TestPart {
+    pub(super) mesh: TestMesh,
+    pub(super) faces: TestFaces,
+    pub(super) boundary: String,
+    /// The cells of the whole mesh that it has.
+    pub(super) cells: Vec<usize>,
+}
+
+impl TestMesh {
+    /// Cuts the mesh as `decomposePar` does: faces between processors come last, by neighbor, in the same order and turned over.
+    pub(super) fn decompose(&self, processor_of: impl Fn(usize) -> usize, count: usize) -> Vec<TestPart> {
+        let whole = self.faces();
+        (0..count)
+            .map(|own| {
+                let cells: Vec<usize> = (0..self.cells.len()).filter(|&cell| processor_of(cell) == own).collect();
+                let local: HashMap<i64, i64> = cells.iter().enumerate().map(|(i, &cell)| (cell as i64, i as i64)).collect();
+                let mut inside = Vec::new();
+                let mut outside = Vec::new();
+                let mut shared: BTreeMap<usize, Vec<(Vec<u32>, i64)>> = BTreeMap::new();
+                for (i, face) in whole.faces.iter().enumerate() {
+                    let mut turned = face.clone();
+                    turned[1..].reverse();
+                    let neighbor = whole.neighbors.get(i);
+                    match (local.get(&whole.owners[i]), neighbor.and_then(|cell| local.get(cell)), neighbor) {
+                        (Some(&a), Some(&b), _) => inside.push((face.clone(), a, b)),
+                        (Some(&a), None, None) => outside.push((face.clone(), a)),
+                        (Some(&a), None, Some(&b)) => {
+                            shared.entry(processor_of(b as usize)).or_default().push((face.clone(), a));
+                        }
+                        (None, Some(&b), _) => {
+                            shared.entry(processor_of(whole.owners[i] as usize)).or_default().push((turned, b));
+                        }
+                        (None, None, _) => {}
+                    }
+                }
+                let mut first = inside.len() + outside.len();
+                let mut boundary = format!("{}\n(\nwalls {{ type wall; nFaces {}; startFace {}; }}\n", shared.len() + 1, outside.len(), inside.len());
+                for (other, faces) in &shared {
+                    boundary += &format!(
+                        "procBoundary{own}to{other}\n{{\n type processor;\n inGroups 1(processor);\n nFaces {};\n startFace {first};\n \
+                         matchTolerance 0.0001;\n transform unknown;\n myProcNo {own};\n neighbProcNo {other};\n}}\n",
+                        faces.len()
+                    );
+                    first += faces.len();
+                }
+                boundary += ")\n";
+                let neighbors = inside.iter().map(|(_, _, neighbor)| *neighbor).collect();
+                let owned = inside.into_iter().map(|(face, owner, _)| (face, owner)).chain(outside).chain(shared.into_values().flatten());
+                let (faces, owners): (Vec<Vec<u32>>, Vec<i64>) = owned.unzip();
+                let mut points: Vec<usize> = faces.iter().flatten().map(|&point| point as usize).collect();
+                points.sort_unstable();
+                points.dedup();
+                let number: HashMap<u32, u32> = points.iter().enumerate().map(|(i, &point)| (point as u32, i as u32)).collect();
+                let faces = faces.iter().map(|face| face.iter().map(|point| number[point]).collect()).collect();
+                let mesh = TestMesh { points: points.iter().map(|&point| self.points[point]).collect(), cells: Vec::new() };
+                TestPart { mesh, faces: TestFaces { faces, owners, neighbors }, boundary, cells }
+            })
+            .collect()
+    }
+}
+
+impl TestPart {
+    /// Writes it as a processor's folder.
+    pub(super) fn write(&self, case: &TestCase, processor: usize, style: Style) {
+        let folder = format!("processor{processor}/constant/polyMesh");
+        case.write_mesh(&folder, &self.mesh, &self.faces, style);
+        case.write(
+            &format!("{folder}/boundary"),
+            &[Style::Text.header("polyBoundaryMesh"), self.boundary.clone().into_bytes()].concat(),
+        );
+    }
 }
 
 impl TestCase {
