@@ -98,6 +98,10 @@ fn split(mut words: Words<'_>) -> Result<Vec<&[u8]>, Bad> {
     let mut blocks = Vec::new();
     while words.peek().is_some() {
         let length = words.number::<usize>("the length of a block")?;
+        if length == 0 && words.peek() != Some(b'(') {
+            blocks.push(b"".as_slice());
+            continue;
+        }
         words.expect(b'(')?;
         let Some(block) = words.rest().get(..length) else {
             let problem = format!("a block of {length} bytes begins there, {} are left", words.rest().len());
@@ -116,8 +120,8 @@ mod tests {
 
     #[test]
     fn blocks_by_their_lengths() {
-        let text = b"// Processor0\n3\n(a)b)\n\n// Processor1\n0()\n2(()) // end";
-        assert_eq!(split(Words::new(text, 0)), Ok(vec![&b"a)b"[..], b"", b"()"]));
+        let text = b"// Processor0\n3\n(a)b)\n\n// Processor1\n0()\n0\n2(()) // end";
+        assert_eq!(split(Words::new(text, 0)), Ok(vec![&b"a)b"[..], b"", b"", b"()"]));
         for (broken, part) in
             [(&b"x"[..], "length"), (b"4(ab)", "4 bytes"), (b"1(ab)", "`)`"), (b"9999999999999(", "0 are left")]
         {

@@ -1,10 +1,10 @@
 //! OpenFOAM's cases: a folder with a mesh of polyhedra in `constant/polyMesh` and fields in folders named by their time.
 //!
-//! A case is opened by its folder, by the empty `.foam` file in it, or by any file of its mesh. Cells are faces there; those of
-//! the linear kinds are told by their faces, all others stay polyhedra. Cells, faces of the boundary and fields on faces are not made points' values:
-//! arrays are those of the time folder, in cells and at points as they are there.
+//! A case is opened by its folder, by the empty `.foam` file in it, or by any file of its mesh. Its cells are known by their faces
+//! alone: [`shapes`] tells the linear kinds, all others stay polyhedra. Fields stay where the files have them, in cells or at points;
+//! faces of the boundary and fields on faces are left out. What processors wrote, and regions, are parts that [`join`] puts together.
 //!
-//! Source: the OpenFOAM User Guide, "Mesh description" and "Basic input/output file format", and files that OpenFOAM wrote.
+//! Source: the OpenFOAM User Guide, "Mesh files", and files that OpenFOAM wrote.
 
 mod case;
 mod choice;
