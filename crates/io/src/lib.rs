@@ -25,6 +25,7 @@
 //!
 //! This crate and the command line are the only ones that open files; neither prints here. Files are read whole into
 //! memory. Exodus and image-data formats are recognized and refused with a way to convert them.
+//! memory; of an OpenFOAM case, which is a folder, only those of the chosen time step. Gmsh, Exodus and image-data formats are recognized and refused with a way to convert them.
 
 mod bytes;
 mod error;
@@ -34,6 +35,7 @@ mod grid;
 mod heights;
 mod nrrd;
 mod open;
+mod openfoam;
 mod picture;
 mod plot3d;
 mod raw;

@@ -7,6 +7,7 @@ use crate::{IoError, Loaded, MeshReader, ReadOptions, Source, foreign, gmsh::GMS
 use crate::{
     IoError, Loaded, MeshReader, RawVolume, ReadOptions, Source, foreign, nrrd::NRRD, plot3d::PLOT3D, raw::RAW, vtk,
 };
+use crate::{IoError, Loaded, MeshReader, ReadOptions, Source, foreign, openfoam::OPENFOAM, plot3d::PLOT3D, vtk};
 
 /// All readers, in the order in which they are asked whether they recognize a file.
 ///
@@ -14,6 +15,7 @@ use crate::{
 pub fn readers() -> &'static [&'static dyn MeshReader] {
     static READERS: [&dyn MeshReader; 4] = [&vtk::VTU, &vtk::LEGACY, &GMSH, &PLOT3D];
     static READERS: [&dyn MeshReader; 5] = [&vtk::VTU, &vtk::LEGACY, &NRRD, &RAW, &PLOT3D];
+    static READERS: [&dyn MeshReader; 4] = [&vtk::VTU, &vtk::LEGACY, &OPENFOAM, &PLOT3D];
     &READERS
 }
 
@@ -92,7 +94,7 @@ pub(crate) fn read_whole(path: &Path) -> Result<Vec<u8>, IoError> {
         return Err(IoError::Unsupported {
             path: path.to_owned(),
             what: if metadata.is_dir() { "reading a folder" } else { "reading a device or pipe" }.to_owned(),
-            remedy: "name a regular file".to_owned(),
+            remedy: "name a regular file, or the folder of an OpenFOAM case".to_owned(),
         });
     }
     let bytes = std::fs::read(path).map_err(failed)?;

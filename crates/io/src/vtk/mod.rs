@@ -21,6 +21,8 @@ mod shared_table;
 mod shared_tests;
 #[cfg(test)]
 mod test_support;
+#[cfg(test)]
+pub(crate) use test_support::sanity_check;
 
 pub(crate) use legacy::LegacyVtk;
 pub(crate) use vtu::VtuReader;

@@ -36,7 +36,7 @@ pub(super) fn cells(dataset: &Dataset) -> &UnstructuredCells {
 }
 
 /// Fails unless the cells keep what their type promises.
-pub(super) fn sanity_check(dataset: &Dataset) {
+pub(crate) fn sanity_check(dataset: &Dataset) {
     let rows = cells(dataset);
     assert_eq!(rows.offsets.len(), rows.kinds.len() + 1);
     assert_eq!(rows.offsets[0], 0);
