@@ -29,15 +29,6 @@ const FOREIGN: &[Foreign] = &[
         remedy: CONVERT,
     },
     Foreign { name: "NRRD", extensions: &["nrrd", "nhdr"], magic: &[b"NRRD000"], remedy: TO_CELLS },
-    Foreign { name: "VTI (VTK image data)", extensions: &["vti"], magic: &[], remedy: TO_CELLS },
-    Foreign { name: "VTR (VTK rectilinear grid)", extensions: &["vtr"], magic: &[], remedy: TO_CELLS },
-    Foreign { name: "VTS (VTK structured grid)", extensions: &["vts"], magic: &[], remedy: TO_CELLS },
-    Foreign {
-        name: "VTK's parallel or composite XML",
-        extensions: &["pvtu", "pvti", "pvtr", "pvts", "vtm", "vtmb", "pvd"],
-        magic: &[],
-        remedy: "name one of its .vtu pieces, or merge them into one .vtu file with ParaView",
-    },
     Foreign {
         name: "a surface (it has no volume)",
         extensions: &["vtp", "stl", "ply", "obj"],
@@ -75,7 +66,7 @@ pub(crate) fn refuse_by_extension(path: &Path, readers: &[&dyn MeshReader]) -> I
                 format!("this content, or the extension .{extension},")
             },
             remedy: format!(
-                "{}; Gmsh (.msh), Exodus (.e, .ex2, .exo), NRRD and VTI, VTR, VTS are not read yet: ParaView or \
+                "{}; Gmsh (.msh), Exodus (.e, .ex2, .exo) and NRRD are not read yet: ParaView or \
                  meshio can convert them to .vtu",
                 formats_read(readers)
             ),

@@ -9,7 +9,20 @@ use crate::{IoError, Loaded, MeshReader, ReadOptions, Source, foreign, plot3d::P
 ///
 /// PLOT3D is last: its files begin with nothing that tells them apart, so that it judges by whether all sizes fit.
 pub fn readers() -> &'static [&'static dyn MeshReader] {
-    static READERS: [&dyn MeshReader; 3] = [&vtk::VTU, &vtk::LEGACY, &PLOT3D];
+    static READERS: [&dyn MeshReader; 12] = [
+        &vtk::VTU,
+        &vtk::VTI,
+        &vtk::VTR,
+        &vtk::VTS,
+        &vtk::PVTU,
+        &vtk::PVTI,
+        &vtk::PVTR,
+        &vtk::PVTS,
+        &vtk::PVD,
+        &vtk::BLOCKS,
+        &vtk::LEGACY,
+        &PLOT3D,
+    ];
     &READERS
 }
 
@@ -22,6 +35,15 @@ pub fn readers() -> &'static [&'static dyn MeshReader] {
 /// [`IoError::Read`] when the system does not give the file, [`IoError::Unsupported`] when no reader takes it (the message
 /// lists those there are), [`IoError::Invalid`] when it is broken.
 pub fn read_mesh(path: &Path, options: &ReadOptions) -> Result<Loaded, IoError> {
+    open(path, options, true)
+}
+
+/// Reads a mesh that another file names, of any format but those that name meshes themselves: such files could name each other without end.
+pub(crate) fn read_part(path: &Path) -> Result<Loaded, IoError> {
+    open(path, &ReadOptions::default(), false)
+}
+
+fn open(path: &Path, options: &ReadOptions, may_name_meshes: bool) -> Result<Loaded, IoError> {
     let source = |bytes: Vec<u8>| Source { path: path.to_owned(), bytes, options: options.clone() };
     let by_path = readers().iter().copied().find(|reader| reader.takes(path));
     if let Some(reader) = by_path {
@@ -38,6 +60,12 @@ pub fn read_mesh(path: &Path, options: &ReadOptions) -> Result<Loaded, IoError> 
             None => expected.ok_or_else(|| foreign::refuse_by_extension(path, readers()))?,
         },
     };
+    if reader.names_meshes() && !may_name_meshes {
+        return Err(source.unsupported(
+            format!("a file that names meshes ({}) inside another", reader.name()),
+            "name the meshes themselves in the outer file, or read the inner one by itself",
+        ));
+    }
 
     let mut loaded = finished(&source, reader)?;
     let named_otherwise =
@@ -137,7 +165,7 @@ mod tests {
         assert!(gmsh.contains("Gmsh is not supported") && gmsh.contains("meshio"), "{gmsh}");
         assert!(refusal("can.whatever", b"CDF\x02....").contains("Exodus"));
         assert!(refusal("volume.nhdr", b"NRRD0004\n").contains("NRRD"));
-        assert!(refusal("unrecognizable.vti", b"what is this").contains("VTI"));
+        assert!(refusal("unrecognizable.vti", b"what is this").contains("XML"));
         assert!(refusal("notes.txt", b"nothing of the kind").contains(".msh"));
         assert!(refusal("noextension", b"nothing of the kind").contains("no extension"));
     }

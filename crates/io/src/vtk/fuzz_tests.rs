@@ -4,7 +4,7 @@ use proptest::prelude::*;
 
 use super::legacy::tests::binary_file;
 use super::test_support::{read, sanity_check};
-use super::vtu::tests::{ascii_file, raw_zlib_file};
+use super::xml::tests::{ascii_file, raw_zlib_file};
 
 const LEGACY_TEXT: &str = "# vtk DataFile Version 5.1\nt\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 5 float\n\
     0 0 0 1 0 0 0 1 0 0 0 1 1 1 1\nCELLS 3 21\nOFFSETS vtktypeint64\n0 17 21\nCONNECTIVITY vtktypeint64\n\
@@ -71,7 +71,7 @@ proptest! {
 
     #[test]
     fn blocks_of_any_bytes_in_every_compressor(block in prop::collection::vec(any::<u8>(), 0..300), size in 0..5000_usize) {
-        use super::vtu::tests::decompress_with_all;
+        use super::xml::tests::decompress_with_all;
         decompress_with_all(&block, size);
     }
 }

@@ -5,11 +5,13 @@
 
 mod cell_types;
 mod cells;
+mod hexahedra;
+mod join;
 mod legacy;
 mod named;
 mod scalars;
-mod vtu;
 mod write;
+mod xml;
 
 #[cfg(test)]
 mod fuzz_tests;
@@ -23,14 +25,27 @@ mod shared_tests;
 mod test_support;
 
 pub(crate) use legacy::LegacyVtk;
-pub(crate) use vtu::VtuReader;
 pub use write::write_vtu;
+use xml::{BlocksReader, Kind, ParallelReader, PvdReader, XmlReader};
 
 /// The reader of legacy files.
 pub(crate) static LEGACY: LegacyVtk = LegacyVtk;
 
-/// The reader of XML unstructured grids.
-pub(crate) static VTU: VtuReader = VtuReader;
+/// The readers of XML files, one a kind of dataset.
+pub(crate) static VTU: XmlReader = XmlReader { kind: Kind::Unstructured };
+pub(crate) static VTI: XmlReader = XmlReader { kind: Kind::Image };
+pub(crate) static VTR: XmlReader = XmlReader { kind: Kind::Rectilinear };
+pub(crate) static VTS: XmlReader = XmlReader { kind: Kind::Structured };
+
+/// The readers of files that name pieces.
+pub(crate) static PVTU: ParallelReader = ParallelReader { kind: Kind::Unstructured };
+pub(crate) static PVTI: ParallelReader = ParallelReader { kind: Kind::Image };
+pub(crate) static PVTR: ParallelReader = ParallelReader { kind: Kind::Rectilinear };
+pub(crate) static PVTS: ParallelReader = ParallelReader { kind: Kind::Structured };
+
+/// The readers of files that name whole meshes.
+pub(crate) static PVD: PvdReader = PvdReader;
+pub(crate) static BLOCKS: BlocksReader = BlocksReader;
 
 /// What to advise when a file is damaged rather than of an odd form.
 const DAMAGED: &str = "the file is cut off or damaged; write it again, or open it in ParaView to see what is left";

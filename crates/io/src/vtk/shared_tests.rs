@@ -3,9 +3,9 @@
 
 use std::collections::BTreeMap;
 
-use tetrascope_mesh::Dataset;
+use tetrascope_mesh::{Cells, Dataset};
 
-use super::shared_table::{FILES, File};
+use super::shared_table::{Array, FILES, File};
 use super::test_support::{assert_same, bits, cells, finite_range, read_file, sanity_check, shared};
 use crate::IoError;
 
@@ -20,8 +20,12 @@ fn check_file(file: &File, dataset: &Dataset) {
         *counts.entry(kind).or_insert(0) += 1;
     }
     assert_eq!(counts, file.kinds.iter().copied().collect(), "{name}");
-    assert_eq!(dataset.point_arrays.len() + dataset.cell_arrays.len(), file.arrays.len(), "{name}");
-    for &(owner, array, type_name, components, low, high, not_finite) in file.arrays {
+    check_arrays(name, file.arrays, dataset);
+}
+
+fn check_arrays(name: &str, described: &[Array], dataset: &Dataset) {
+    assert_eq!(dataset.point_arrays.len() + dataset.cell_arrays.len(), described.len(), "{name}");
+    for &(owner, array, type_name, components, low, high, not_finite) in described {
         let arrays = if owner == "point" { &dataset.point_arrays } else { &dataset.cell_arrays };
         let found =
             arrays.iter().find(|a| a.name == array).unwrap_or_else(|| panic!("{name}: no {owner} array {array}"));
@@ -140,5 +144,51 @@ fn shared_structured_files_are_refused_with_a_remedy() {
         assert!(matches!(error, IoError::Unsupported { .. }), "{error}");
         let text = error.to_string();
         assert!(text.contains(name) && text.contains(kind) && text.contains("ParaView"), "{text}");
+    }
+}
+
+/// Name, dims, arrays as in [`File`].
+type Grid = (&'static str, [usize; 3], &'static [Array]);
+
+const GRIDS: &[Grid] = &[
+    (
+        "volume/StructuredGrid.vts",
+        [6, 12, 9],
+        &[
+            ("point", "Density", "Float32", 1, 0.203009, 0.710419, 0),
+            ("point", "Momentum", "Float32", 3, -350.012, 332.25, 0),
+            ("point", "StagnationEnergy", "Float32", 1, 0.0, 0.0, 0),
+        ],
+    ),
+    (
+        "volume/cth.vtr",
+        [129, 65, 65],
+        &[
+            ("cell", "Pressure", "Float32", 1, -2.35945e10, 1.12038e11, 0),
+            ("cell", "Void Volume Fraction", "Float32", 1, 0.0, 1.0, 0),
+            ("cell", "X Velocity", "Float32", 1, -86618.9, 327482.0, 0),
+            ("cell", "Y Velocity", "Float32", 1, -74656.1, 78993.6, 0),
+            ("cell", "Z Velocity", "Float32", 1, -88306.7, 132856.0, 0),
+            ("cell", "Volume Fraction for Armor Plate", "Float32", 1, 0.0, 1.0, 0),
+            ("cell", "Mass for Armor Plate", "Float32", 1, 0.0, 0.00944007, 0),
+            ("cell", "Volume Fraction for Body, Nose", "Float32", 1, 0.0, 1.0, 0),
+            ("cell", "Mass for Body, Nose", "Float32", 1, 0.0, 0.00944007, 0),
+        ],
+    ),
+    ("volume/heart.vti", [32, 32, 12], &[("point", "scalars", "Float32", 1, 0.0, 255.0, 0)]),
+    ("volume/hydrogen.vti", [64; 3], &[("point", "probability_density", "Float32", 1, 0.0, 1.0, 0)]),
+];
+
+#[test]
+fn shared_grids_are_as_described() {
+    let Some(folder) = shared() else { return };
+    for &(name, dims, arrays) in GRIDS {
+        let loaded = read_file(&folder, name).unwrap_or_else(|e| panic!("{e}"));
+        assert!(loaded.warnings.is_empty(), "{name}: {:?}", loaded.warnings);
+        let Cells::Structured(blocks) = &loaded.dataset.cells else { panic!("{name}: not structured") };
+        assert_eq!((blocks.len(), blocks[0].dims), (1, dims), "{name}");
+        check_arrays(name, arrays, &loaded.dataset);
+        let cut = tetrascope_mesh::decompose(&loaded.dataset).unwrap();
+        assert_eq!(cut.counts.tetrahedra, 5 * blocks[0].cell_count(), "{name}");
     }
 }

@@ -3,77 +3,18 @@
 //! Elements are pulled one after another and nothing recurses, so depth costs one byte a level. Entities other than the
 //! five predefined ones and character references are never expanded.
 
-use std::cell::Cell;
-
-use quick_xml::XmlVersion;
-use quick_xml::events::{BytesStart, Event};
+use quick_xml::events::Event;
 use quick_xml::reader::Reader;
 
 use super::super::DAMAGED;
 use super::super::scalars::ByteOrder;
+use super::Kind;
+use super::attributes::{Attributes, line, shorten};
+use super::budget::Budget;
 use super::compression::Compressor;
+use super::extent::Extent;
+use super::file::{Appended, ArrayElement, Lattice, Piece, XmlFile, without_mark};
 use crate::{IoError, Source};
-
-/// The file as a list of arrays that are not decoded yet.
-#[derive(Debug)]
-pub(super) struct VtuFile<'a> {
-    /// The format's version as the file states it.
-    pub(super) version: String,
-    /// The order of bytes in all numbers and headers.
-    pub(super) byte_order: ByteOrder,
-    /// Bytes of a word in the header of an array: 4 or 8.
-    pub(super) header_size: usize,
-    /// How binary arrays are compressed.
-    pub(super) compressor: Option<Compressor>,
-    /// At least one.
-    pub(super) pieces: Vec<Piece<'a>>,
-    /// The section behind the XML that arrays of the format `appended` point into.
-    pub(super) appended: Option<Appended<'a>>,
-    /// How many numbers may still be decoded; see [`NUMBERS_PER_BYTE`].
-    numbers_left: Cell<usize>,
-}
-
-/// Numbers that all arrays of a file together may come to, a byte of the file. Without compression a byte is one number at most, as text or
-/// as bytes; what is more is compressed, or is named by several arrays at one offset. The real meshes of the tests, whose indices and coordinates differ,
-/// stay below 1. Without the bound, 100 kB of arrays that share an offset, or of zeros that were compressed, are gigabytes.
-const NUMBERS_PER_BYTE: usize = 16;
-
-/// Numbers that are decoded whatever the file's length is: 8 MiB of the widest type.
-const NUMBERS_ALWAYS: usize = 1 << 20;
-
-/// One `Piece` element.
-#[derive(Debug, Default)]
-pub(super) struct Piece<'a> {
-    /// What the file declares; only ever compared with, never reserved.
-    pub(super) point_count: u64,
-    pub(super) cell_count: u64,
-    pub(super) point_data: Vec<ArrayElement<'a>>,
-    pub(super) cell_data: Vec<ArrayElement<'a>>,
-    pub(super) points: Vec<ArrayElement<'a>>,
-    pub(super) cells: Vec<ArrayElement<'a>>,
-}
-
-/// One `DataArray` (or `Array`) element.
-#[derive(Debug)]
-pub(super) struct ArrayElement<'a> {
-    pub(super) name: String,
-    pub(super) type_name: String,
-    /// Nothing where the attribute is absent.
-    pub(super) components: Option<String>,
-    pub(super) format: String,
-    pub(super) offset: Option<String>,
-    /// The text directly inside, in pieces where comments or other elements stand between.
-    pub(super) text: Vec<std::borrow::Cow<'a, str>>,
-    /// The line on which the element starts is counted from this byte when there is something to say.
-    pub(super) position: usize,
-}
-
-/// The appended section: everything behind the underscore, up to the file's end or the closing tag.
-#[derive(Clone, Copy, Debug)]
-pub(super) enum Appended<'a> {
-    Raw(&'a [u8]),
-    Base64(&'a [u8]),
-}
 
 /// What an open element is; all that matters for knowing where an array belongs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -85,44 +26,34 @@ enum Open {
     CellData,
     Points,
     Cells,
+    Coordinates,
+    FieldData,
     Array,
     Other,
 }
 
-impl VtuFile<'_> {
-    /// Takes so many numbers from what the file may come to. The error says what the limit is, for the caller to add the place.
-    pub(super) fn spend(&self, numbers: usize) -> Result<(), String> {
-        let left = self.numbers_left.get().checked_sub(numbers).ok_or_else(|| {
-            format!(
-                "with its {numbers} numbers the arrays come to more than {NUMBERS_PER_BYTE} numbers a byte of the file \
-                 (and to more than {NUMBERS_ALWAYS}), which is the limit; if the file is whole, save it without compression"
-            )
-        })?;
-        self.numbers_left.set(left);
-        Ok(())
-    }
-}
-
-/// The bytes without a byte-order mark of UTF-8.
-pub(super) fn without_mark(bytes: &[u8]) -> &[u8] {
-    bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes)
-}
-
-/// Lists the arrays of a file.
-pub(super) fn parse(source: &Source) -> Result<VtuFile<'_>, IoError> {
+/// Lists the arrays of a file of this kind.
+pub(super) fn parse<'a>(source: &'a Source, kind: Kind, budget: &'a Budget) -> Result<XmlFile<'a>, IoError> {
     let bytes = without_mark(&source.bytes);
     let mut reader = Reader::from_reader(bytes);
     // An empty element then looks like one with nothing in it.
     reader.config_mut().expand_empty_elements = true;
-    let mut file = VtuFile {
+    let mut file = XmlFile {
+        kind,
         version: String::new(),
         byte_order: ByteOrder::Little,
         header_size: 4,
         compressor: None,
         pieces: Vec::new(),
         appended: None,
-        numbers_left: Cell::new(bytes.len().saturating_mul(NUMBERS_PER_BYTE).max(NUMBERS_ALWAYS)),
+        budget,
+        lattice: Lattice::default(),
+        field_data: Vec::new(),
+        times: Vec::new(),
+        step: 0,
     };
+    budget.grant(bytes.len(), kind.numbers_per_byte());
+    let mut whole_extent = None;
     let mut open: Vec<Open> = Vec::new();
     let mut root_seen = false;
     loop {
@@ -138,41 +69,44 @@ pub(super) fn parse(source: &Source) -> Result<VtuFile<'_>, IoError> {
                 let this = match (parent, element.name().as_ref()) {
                     (None, "VTKFile") if !root_seen => {
                         root_seen = true;
-                        read_root(&attributes, &mut file)?;
+                        read_root(&attributes, kind, &mut file)?;
                         Open::Root
                     }
                     (None, name) => {
                         return Err(source.invalid(
                             line(bytes, start),
                             format!("the root element is `{}`, not `VTKFile`", shorten(name)),
-                            "name a VTU file, or give the file the extension of its format",
+                            "name a VTK XML file, or give the file the extension of its format",
                         ));
                     }
-                    (Some(Open::Root), "UnstructuredGrid") => Open::Grid,
+                    (Some(Open::Root), name) if name == kind.type_name() => {
+                        whole_extent = read_grid(&attributes, kind, &mut file)?;
+                        Open::Grid
+                    }
                     (Some(Open::Root), "AppendedData") => {
                         file.appended = Some(read_appended(&attributes, position(&reader))?);
                         // The section is not XML: nothing behind this tag may be parsed as such.
                         break;
                     }
                     (Some(Open::Grid), "Piece") => {
-                        file.pieces.push(Piece {
-                            point_count: attributes.count("NumberOfPoints")?,
-                            cell_count: attributes.count("NumberOfCells")?,
-                            ..Piece::default()
-                        });
+                        file.pieces.push(read_piece(&attributes, kind, whole_extent)?);
                         Open::Piece
                     }
                     (Some(Open::Piece), "PointData") => Open::PointData,
                     (Some(Open::Piece), "CellData") => Open::CellData,
                     (Some(Open::Piece), "Points") => Open::Points,
                     (Some(Open::Piece), "Cells") => Open::Cells,
-                    (Some(section), "DataArray" | "Array") => match arrays_of(&mut file, section) {
-                        Some(arrays) => {
-                            arrays.push(read_array(&attributes)?);
-                            Open::Array
+                    (Some(Open::Piece), "Coordinates") => Open::Coordinates,
+                    (Some(Open::Root | Open::Grid), "FieldData") => Open::FieldData,
+                    (Some(section), "DataArray" | "Array") if is_of_step(&attributes, file.step)? => {
+                        match arrays_of(&mut file, section) {
+                            Some(arrays) => {
+                                arrays.push(read_array(&attributes)?);
+                                Open::Array
+                            }
+                            None => Open::Other,
                         }
-                        None => Open::Other,
-                    },
+                    }
                     _ => Open::Other,
                 };
                 open.push(this);
@@ -202,7 +136,7 @@ pub(super) fn parse(source: &Source) -> Result<VtuFile<'_>, IoError> {
                     return Err(source.invalid(
                         "start of the file",
                         if bytes.is_empty() { "the file is empty" } else { "there is no XML element `VTKFile`" },
-                        "name a VTU file, or give the file the extension of its format",
+                        "name a VTK XML file, or give the file the extension of its format",
                     ));
                 }
                 if !open.is_empty() {
@@ -214,7 +148,8 @@ pub(super) fn parse(source: &Source) -> Result<VtuFile<'_>, IoError> {
         }
     }
     if file.pieces.is_empty() {
-        return Err(source.invalid("element UnstructuredGrid", "it holds no Piece, so there is no mesh", DAMAGED));
+        let place = format!("element {}", kind.type_name());
+        return Err(source.invalid(place, "it holds no Piece, so there is no mesh", DAMAGED));
     }
     Ok(file)
 }
@@ -223,100 +158,35 @@ fn position(reader: &Reader<&[u8]>) -> usize {
     usize::try_from(reader.buffer_position()).unwrap_or(usize::MAX)
 }
 
-#[cfg(test)]
-thread_local! {
-    /// Bytes that were looked through for the numbers of lines.
-    pub(super) static LOOKED_THROUGH: Cell<usize> = const { Cell::new(0) };
-}
-
-/// A place in words: the line, counted from 1. It looks through all that is before, so that it is for errors alone.
-pub(super) fn line(bytes: &[u8], at: usize) -> String {
-    #[cfg(test)]
-    LOOKED_THROUGH.set(LOOKED_THROUGH.get() + at);
-    let before = &bytes[..at.min(bytes.len())];
-    format!("line {}", 1 + before.iter().filter(|&&byte| byte == b'\n').count())
-}
-
-fn shorten(text: &str) -> String {
-    text.chars().take(40).collect()
-}
-
-fn arrays_of<'f, 'a>(file: &'f mut VtuFile<'a>, section: Open) -> Option<&'f mut Vec<ArrayElement<'a>>> {
+fn arrays_of<'f, 'a>(file: &'f mut XmlFile<'a>, section: Open) -> Option<&'f mut Vec<ArrayElement<'a>>> {
+    if section == Open::FieldData {
+        return Some(&mut file.field_data);
+    }
     let piece = file.pieces.last_mut()?;
     match section {
         Open::PointData => Some(&mut piece.point_data),
         Open::CellData => Some(&mut piece.cell_data),
         Open::Points => Some(&mut piece.points),
         Open::Cells => Some(&mut piece.cells),
+        Open::Coordinates => Some(&mut piece.coordinates),
         _ => None,
     }
 }
 
 /// The array that text belongs to: only where it stands directly inside, not in the array's information keys.
-fn current_array<'f, 'a>(file: &'f mut VtuFile<'a>, open: &[Open]) -> Option<&'f mut ArrayElement<'a>> {
+fn current_array<'f, 'a>(file: &'f mut XmlFile<'a>, open: &[Open]) -> Option<&'f mut ArrayElement<'a>> {
     match open {
         [.., section, Open::Array] => arrays_of(file, *section)?.last_mut(),
         _ => None,
     }
 }
 
-/// The attributes of one element, with what is needed to complain about them.
-struct Attributes<'e, 'a> {
-    source: &'a Source,
-    bytes: &'a [u8],
-    start: usize,
-    element: &'e BytesStart<'a>,
-}
-
-impl Attributes<'_, '_> {
-    fn get(&self, name: &str) -> Result<Option<String>, IoError> {
-        let broken = |problem: String| self.source.invalid(self.place(), problem, DAMAGED);
-        // Without the check for repeated names, whose time grows with the square of their number; the first one holds.
-        for attribute in self.element.attributes().with_checks(false) {
-            let attribute = attribute.map_err(|e| broken(format!("broken attribute: {e}")))?;
-            if attribute.key.as_ref() == name {
-                let value = attribute
-                    .normalized_value(XmlVersion::Implicit1_0)
-                    .map_err(|e| broken(format!("the attribute `{name}` cannot be read: {e}")))?;
-                return Ok(Some(value.into_owned()));
-            }
-        }
-        Ok(None)
-    }
-
-    fn count(&self, name: &str) -> Result<u64, IoError> {
-        let text = self.get(name)?.unwrap_or_default();
-        text.trim().parse().map_err(|_| {
-            let problem = format!("the attribute `{name}` of Piece is \"{}\", not a count", shorten(&text));
-            self.source.invalid(self.place(), problem, DAMAGED)
-        })
-    }
-
-    fn place(&self) -> String {
-        line(self.bytes, self.start)
-    }
-
-    fn unknown(&self, name: &str, value: &str, known: &str) -> IoError {
-        self.source.invalid(
-            self.place(),
-            format!("the attribute `{name}` is \"{}\", where {known} are known", shorten(value)),
-            DAMAGED,
-        )
-    }
-}
-
-fn read_root(attributes: &Attributes<'_, '_>, file: &mut VtuFile<'_>) -> Result<(), IoError> {
+fn read_root(attributes: &Attributes<'_, '_>, kind: Kind, file: &mut XmlFile<'_>) -> Result<(), IoError> {
     let source = attributes.source;
-    let kind = attributes.get("type")?.unwrap_or_default();
-    if kind.starts_with("PUnstructuredGrid") {
+    let found = attributes.get("type")?.unwrap_or_default();
+    if found.trim() != kind.type_name() {
         return Err(source.unsupported(
-            "a parallel file (PUnstructuredGrid), which only names other files,",
-            "open one of its .vtu files, or merge them into one with ParaView (Merge Blocks, then Save Data)",
-        ));
-    }
-    if kind != "UnstructuredGrid" {
-        return Err(source.unsupported(
-            format!("a VTK file of the type \"{}\"", shorten(&kind)),
+            format!("a VTK file of the type \"{}\"", shorten(&found)),
             "convert it to an unstructured grid with ParaView (Append Datasets, then Save Data as .vtu)",
         ));
     }
@@ -342,6 +212,59 @@ fn read_root(attributes: &Attributes<'_, '_>, file: &mut VtuFile<'_>) -> Result<
         })?),
     };
     Ok(())
+}
+
+/// The attributes of the element around the pieces; gives the whole box of a grid.
+fn read_grid(attributes: &Attributes<'_, '_>, kind: Kind, file: &mut XmlFile<'_>) -> Result<Option<Extent>, IoError> {
+    if let Some(text) = attributes.get("TimeValues")? {
+        let times: Result<Vec<f64>, _> = text.split_ascii_whitespace().map(str::parse).collect();
+        file.times = times.map_err(|_| {
+            let problem = format!("the attribute `TimeValues` is \"{}\", not a list of numbers", shorten(&text));
+            attributes.source.invalid(attributes.place(), problem, DAMAGED)
+        })?;
+        file.step = attributes.source.step(&file.times)?;
+    }
+    if kind == Kind::Unstructured {
+        return Ok(None);
+    }
+    if kind == Kind::Image {
+        let usual = Lattice::default();
+        file.lattice = Lattice {
+            origin: attributes.numbers("Origin")?.unwrap_or(usual.origin),
+            spacing: attributes.numbers("Spacing")?.unwrap_or(usual.spacing),
+            direction: attributes.numbers("Direction")?.unwrap_or(usual.direction),
+        };
+    }
+    // It may be larger than any mesh; what counts are the pieces.
+    Ok(attributes.extent("WholeExtent").ok().flatten())
+}
+
+fn read_piece<'a>(
+    attributes: &Attributes<'_, '_>,
+    kind: Kind,
+    whole_extent: Option<Extent>,
+) -> Result<Piece<'a>, IoError> {
+    if kind == Kind::Unstructured {
+        let (point_count, cell_count) = (attributes.count("NumberOfPoints")?, attributes.count("NumberOfCells")?);
+        return Ok(Piece { point_count, cell_count, ..Piece::default() });
+    }
+    let extent = match attributes.extent("Extent")? {
+        Some(extent) => extent,
+        None => whole_extent.ok_or_else(|| {
+            let problem = "it has no attribute `Extent`, and there is no `WholeExtent` that could stand for it";
+            attributes.source.invalid(attributes.place(), problem, DAMAGED)
+        })?,
+    };
+    let (point_count, cell_count) = (extent.point_count() as u64, extent.cell_count() as u64);
+    Ok(Piece { point_count, cell_count, extent: Some(extent), ..Piece::default() })
+}
+
+/// Whether an array is of the step that is read; most say nothing of steps.
+fn is_of_step(attributes: &Attributes<'_, '_>, step: usize) -> Result<bool, IoError> {
+    let steps = attributes.get("TimeStep")?;
+    Ok(steps.is_none_or(|steps| {
+        steps.trim().is_empty() || steps.split_ascii_whitespace().any(|word| word.parse() == Ok(step))
+    }))
 }
 
 fn read_array<'a>(attributes: &Attributes<'_, '_>) -> Result<ArrayElement<'a>, IoError> {
