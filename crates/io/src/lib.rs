@@ -24,7 +24,7 @@
 //! ```
 //!
 //! This crate and the command line are the only ones that open files; neither prints here. Files are read whole into
-//! memory. Gmsh, Exodus and image-data formats are recognized and refused with a way to convert them.
+//! memory. Gmsh, Exodus and NRRD are recognized and refused with a way to convert them.
 
 mod bytes;
 mod error;

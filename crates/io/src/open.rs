@@ -9,7 +9,7 @@ use crate::{IoError, Loaded, MeshReader, ReadOptions, Source, foreign, plot3d::P
 ///
 /// PLOT3D is last: its files begin with nothing that tells them apart, so that it judges by whether all sizes fit.
 pub fn readers() -> &'static [&'static dyn MeshReader] {
-    static READERS: [&dyn MeshReader; 12] = [
+    static READERS: [&dyn MeshReader; 13] = [
         &vtk::VTU,
         &vtk::VTI,
         &vtk::VTR,
@@ -19,6 +19,7 @@ pub fn readers() -> &'static [&'static dyn MeshReader] {
         &vtk::PVTR,
         &vtk::PVTS,
         &vtk::PVD,
+        &vtk::SERIES,
         &vtk::BLOCKS,
         &vtk::LEGACY,
         &PLOT3D,

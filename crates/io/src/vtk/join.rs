@@ -4,7 +4,7 @@ use std::collections::HashMap;
 
 use tetrascope_mesh::{ArrayValues, Cells, DataArray, Dataset, StructuredBlock, UnstructuredCells};
 
-use super::hexahedra::push_hexahedra;
+use super::grids::hexahedra::push_hexahedra;
 use super::scalars::append;
 
 /// Arrays of one kind over all pieces of a file.
@@ -83,6 +83,13 @@ pub(super) fn join(mut parts: Vec<Dataset>, warnings: &mut Vec<String>) -> Resul
     Ok(Dataset { points, cells, point_arrays, cell_arrays })
 }
 
+/// The arrays of one name, each with the number of its part.
+struct Named {
+    name: String,
+    components: usize,
+    arrays: Vec<(usize, DataArray)>,
+}
+
 fn join_arrays(
     owner: &str,
     parts: Vec<Vec<DataArray>>,
@@ -91,19 +98,19 @@ fn join_arrays(
 ) -> Vec<DataArray> {
     // For each name, in the order in which they first appear, the array of every part that has it.
     let mut by_name: HashMap<String, usize> = HashMap::new();
-    let mut named: Vec<(String, usize, Vec<(usize, DataArray)>)> = Vec::new();
+    let mut named: Vec<Named> = Vec::new();
     for (part, arrays) in parts.into_iter().enumerate() {
         for array in arrays {
             let index = *by_name.entry(array.name.clone()).or_insert(named.len());
             if index == named.len() {
-                named.push((array.name.clone(), array.components, Vec::new()));
+                named.push(Named { name: array.name.clone(), components: array.components, arrays: Vec::new() });
             }
-            named[index].2.push((part, array));
+            named[index].arrays.push((part, array));
         }
     }
     let filled = counts.iter().filter(|&&count| count > 0).count();
     let mut joined = Vec::with_capacity(named.len());
-    for (name, components, mut arrays) in named {
+    for Named { name, components, mut arrays } in named {
         arrays.retain(|(part, _)| counts[*part] > 0);
         if arrays.iter().any(|(_, array)| array.components != components) {
             warnings.push(format!(

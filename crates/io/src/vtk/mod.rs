@@ -1,15 +1,17 @@
-//! The readers of VTK's unstructured grids: legacy files (`.vtk`) and XML files (`.vtu`).
+//! The readers of VTK's meshes: legacy files (`.vtk`), XML files (`.vtu`, `.vti`, `.vtr`, `.vts`) and files that name others (`.pvtu`, `.pvd`, ...).
 //!
-//! Both hand the same three things to the same code: numbers of a declared type ([`scalars`]), cells as rows of point
-//! indices ([`cells`]) and arrays with names ([`named`]). What differs is how each finds them in its file. [`write_vtu`] writes the second.
+//! All hand the same things to the same code: numbers of a declared type ([`scalars`]), cells as rows of point
+//! indices ([`cells`]), grids in their pieces ([`grids`]) and arrays with names ([`named`]). What differs is how each finds them in its file.
+//! [`write_vtu`] writes unstructured grids as XML.
 
 mod cell_types;
 mod cells;
-mod hexahedra;
+mod grids;
 mod join;
 mod legacy;
 mod named;
 mod scalars;
+mod tuples;
 mod write;
 mod xml;
 
@@ -26,7 +28,7 @@ mod test_support;
 
 pub(crate) use legacy::LegacyVtk;
 pub use write::write_vtu;
-use xml::{BlocksReader, Kind, ParallelReader, PvdReader, XmlReader};
+use xml::{BlocksReader, Kind, ParallelReader, PvdReader, SeriesReader, XmlReader};
 
 /// The reader of legacy files.
 pub(crate) static LEGACY: LegacyVtk = LegacyVtk;
@@ -45,6 +47,7 @@ pub(crate) static PVTS: ParallelReader = ParallelReader { kind: Kind::Structured
 
 /// The readers of files that name whole meshes.
 pub(crate) static PVD: PvdReader = PvdReader;
+pub(crate) static SERIES: SeriesReader = SeriesReader;
 pub(crate) static BLOCKS: BlocksReader = BlocksReader;
 
 /// What to advise when a file is damaged rather than of an odd form.

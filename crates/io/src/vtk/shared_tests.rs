@@ -7,7 +7,6 @@ use tetrascope_mesh::{Cells, Dataset};
 
 use super::shared_table::{Array, FILES, File};
 use super::test_support::{assert_same, bits, cells, finite_range, read_file, sanity_check, shared};
-use crate::IoError;
 
 fn check_file(file: &File, dataset: &Dataset) {
     let name = file.name;
@@ -62,8 +61,8 @@ fn shared_table_names_every_file() {
         for entry in std::fs::read_dir(folder.join(part)).unwrap() {
             let path = entry.unwrap().path();
             let name = format!("{part}/{}", path.file_name().unwrap().to_string_lossy());
-            let is_structured = ["RectGrid2", "SampleStructGrid", "ironProt"].iter().any(|s| name.contains(s));
-            assert!(path.is_dir() || is_structured || FILES.iter().any(|f| f.name == name), "{name} is in no test");
+            let is_grid = GRIDS.iter().any(|grid| grid.0 == name);
+            assert!(path.is_dir() || is_grid || FILES.iter().any(|f| f.name == name), "{name} is in no test");
         }
     }
 }
@@ -132,21 +131,6 @@ fn shared_polyhedra_are_equal_in_all_layouts() {
     assert_eq!(bits(&reference.cell_arrays[0].values), bits(&binary.cell_arrays[0].values));
 }
 
-#[test]
-fn shared_structured_files_are_refused_with_a_remedy() {
-    let Some(folder) = shared() else { return };
-    for (name, kind) in [
-        ("vtk/RectGrid2.vtk", "RECTILINEAR_GRID"),
-        ("vtk/SampleStructGrid.vtk", "STRUCTURED_GRID"),
-        ("vtk/ironProt.vtk", "STRUCTURED_POINTS"),
-    ] {
-        let error = read_file(&folder, name).unwrap_err();
-        assert!(matches!(error, IoError::Unsupported { .. }), "{error}");
-        let text = error.to_string();
-        assert!(text.contains(name) && text.contains(kind) && text.contains("ParaView"), "{text}");
-    }
-}
-
 /// Name, dims, arrays as in [`File`].
 type Grid = (&'static str, [usize; 3], &'static [Array]);
 
@@ -175,6 +159,20 @@ const GRIDS: &[Grid] = &[
             ("cell", "Mass for Body, Nose", "Float32", 1, 0.0, 0.00944007, 0),
         ],
     ),
+    (
+        "vtk/RectGrid2.vtk",
+        [47, 33, 11],
+        &[
+            ("point", "scalars", "Float32", 1, 0.0, 10.3964, 0),
+            ("point", "vectors", "Float32", 3, -5.36145, 10.0787, 0),
+        ],
+    ),
+    (
+        "vtk/SampleStructGrid.vtk",
+        [20, 30, 40],
+        &[("point", "scalars", "Float64", 1, 0.0, 1.30456, 0), ("cell", "scalars", "Float64", 1, -0.262933, 1.0, 0)],
+    ),
+    ("vtk/ironProt.vtk", [68; 3], &[("point", "scalars", "UInt8", 1, 0.0, 255.0, 0)]),
     ("volume/heart.vti", [32, 32, 12], &[("point", "scalars", "Float32", 1, 0.0, 255.0, 0)]),
     ("volume/hydrogen.vti", [64; 3], &[("point", "probability_density", "Float32", 1, 0.0, 1.0, 0)]),
 ];

@@ -7,7 +7,7 @@ use quick_xml::XmlVersion;
 use quick_xml::events::BytesStart;
 
 use super::super::DAMAGED;
-use super::extent::Extent;
+use super::super::grids::extent::Extent;
 use crate::{IoError, Source};
 
 #[cfg(test)]

@@ -7,13 +7,15 @@ use quick_xml::events::Event;
 use quick_xml::reader::Reader;
 
 use super::super::DAMAGED;
+use super::super::grids::Lattice;
+use super::super::grids::budget::Budget;
+use super::super::grids::extent::Extent;
 use super::super::scalars::ByteOrder;
 use super::Kind;
 use super::attributes::{Attributes, line, shorten};
-use super::budget::Budget;
 use super::compression::Compressor;
-use super::extent::Extent;
-use super::file::{Appended, ArrayElement, Lattice, Piece, XmlFile, without_mark};
+use super::file::{Appended, ArrayElement, Piece, XmlFile, without_mark};
+use super::steps::{keep_last_listed, last_step};
 use crate::{IoError, Source};
 
 /// What an open element is; all that matters for knowing where an array belongs.
@@ -98,10 +100,11 @@ pub(super) fn parse<'a>(source: &'a Source, kind: Kind, budget: &'a Budget) -> R
                     (Some(Open::Piece), "Cells") => Open::Cells,
                     (Some(Open::Piece), "Coordinates") => Open::Coordinates,
                     (Some(Open::Root | Open::Grid), "FieldData") => Open::FieldData,
-                    (Some(section), "DataArray" | "Array") if is_of_step(&attributes, file.step)? => {
+                    (Some(section), "DataArray" | "Array") => {
+                        let step = file.step;
                         match arrays_of(&mut file, section) {
                             Some(arrays) => {
-                                arrays.push(read_array(&attributes)?);
+                                arrays.push(read_array(&attributes, step)?);
                                 Open::Array
                             }
                             None => Open::Other,
@@ -145,6 +148,12 @@ pub(super) fn parse<'a>(source: &'a Source, kind: Kind, budget: &'a Budget) -> R
                 break;
             }
             _ => {}
+        }
+    }
+    if !file.times.is_empty() {
+        for piece in &mut file.pieces {
+            let Piece { point_data, cell_data, points, cells, coordinates, .. } = piece;
+            [point_data, cell_data, points, cells, coordinates].into_iter().for_each(keep_last_listed);
         }
     }
     if file.pieces.is_empty() {
@@ -259,16 +268,9 @@ fn read_piece<'a>(
     Ok(Piece { point_count, cell_count, extent: Some(extent), ..Piece::default() })
 }
 
-/// Whether an array is of the step that is read; most say nothing of steps.
-fn is_of_step(attributes: &Attributes<'_, '_>, step: usize) -> Result<bool, IoError> {
-    let steps = attributes.get("TimeStep")?;
-    Ok(steps.is_none_or(|steps| {
-        steps.trim().is_empty() || steps.split_ascii_whitespace().any(|word| word.parse() == Ok(step))
-    }))
-}
-
-fn read_array<'a>(attributes: &Attributes<'_, '_>) -> Result<ArrayElement<'a>, IoError> {
+fn read_array<'a>(attributes: &Attributes<'_, '_>, step: usize) -> Result<ArrayElement<'a>, IoError> {
     Ok(ArrayElement {
+        listed: last_step(attributes, step)?,
         name: attributes.get("Name")?.unwrap_or_default(),
         type_name: attributes.get("type")?.unwrap_or_default().trim().to_owned(),
         components: attributes.get("NumberOfComponents")?,

@@ -1,10 +1,11 @@
 //! A file as a list of arrays that are not decoded yet.
 
+use super::super::grids::Lattice;
+use super::super::grids::budget::Budget;
+use super::super::grids::extent::Extent;
 use super::super::scalars::ByteOrder;
 use super::Kind;
-use super::budget::Budget;
 use super::compression::Compressor;
-use super::extent::Extent;
 
 /// All that stands around the arrays, and these undecoded.
 #[derive(Debug)]
@@ -33,23 +34,6 @@ pub(super) struct XmlFile<'a> {
     pub(super) times: Vec<f64>,
     /// The step whose arrays are listed.
     pub(super) step: usize,
-}
-
-/// The attributes of image data that place its points.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Lattice {
-    /// Where point (0, 0, 0) would lie, whether a piece has it or not.
-    pub(super) origin: [f64; 3],
-    /// Distances along i, j and k.
-    pub(super) spacing: [f64; 3],
-    /// Row by row a matrix whose columns are the directions of i, j and k.
-    pub(super) direction: [f64; 9],
-}
-
-impl Default for Lattice {
-    fn default() -> Self {
-        Self { origin: [0.0; 3], spacing: [1.0; 3], direction: [1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0] }
-    }
 }
 
 /// One `Piece` element.
@@ -83,10 +67,21 @@ pub(super) struct ArrayElement<'a> {
     pub(super) components: Option<String>,
     pub(super) format: String,
     pub(super) offset: Option<String>,
+    /// Nothing in files of one step.
+    pub(super) listed: Option<Listed>,
     /// The text directly inside, in pieces where comments or other elements stand between.
     pub(super) text: Vec<std::borrow::Cow<'a, str>>,
     /// The line on which the element starts is counted from this byte when there is something to say.
     pub(super) position: usize,
+}
+
+/// For which step an array is listed, in files of several.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Listed {
+    /// The last one up to that which is read.
+    In(usize),
+    /// Later ones alone.
+    Later,
 }
 
 /// The appended section: everything behind the underscore, up to the file's end or the closing tag.

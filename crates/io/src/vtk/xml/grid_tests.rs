@@ -75,7 +75,7 @@ fn block(dataset: &Dataset) -> &StructuredBlock {
     &blocks[0]
 }
 
-const KINDS: [&str; 3] = ["ImageData", "RectilinearGrid", "StructuredGrid"];
+pub(in crate::vtk) const KINDS: [&str; 3] = ["ImageData", "RectilinearGrid", "StructuredGrid"];
 const WHOLE: [i64; 6] = [-1, 3, 0, 2, 1, 3];
 
 fn check_whole(loaded: &Loaded, what: &str) {
@@ -93,6 +93,13 @@ fn check_whole(loaded: &Loaded, what: &str) {
         let expected = if squares { [i, 2 * j, k * k] } else { [i, j, k] };
         assert_eq!(point.to_array(), expected.map(|n| n as f64), "{what}");
     }
+}
+
+/// A seed of the fuzz tests: pieces that overlap, with marks.
+pub(in crate::vtk) fn in_two_pieces(kind: &str) -> String {
+    let marks = |count| array("UInt8", "vtkGhostType", 1, (0..count).map(|n| f64::from(u8::from(n == 1))));
+    let pieces = piece(kind, [0, 2, 0, 1, 0, 1], &marks(12), &marks(2)) + &piece(kind, [1, 3, 0, 1, 0, 1], "", "");
+    grid(kind, "WholeExtent=\"0 3 0 1 0 1\" Origin=\"0 0 1\" Spacing=\"1 2 1\"", &pieces)
 }
 
 #[test]
@@ -226,8 +233,8 @@ fn times_in_the_file() {
     let file = grid("ImageData", "", &(time.to_owned() + &piece("ImageData", WHOLE, "", "")));
     let loaded = good(&file);
     assert_eq!((loaded.times.as_slice(), loaded.step), ([0.25].as_slice(), 0));
-    // Several steps, each with arrays of its own; one array holds for two of them.
-    let steps = [("0", 1.0), ("1 2", 2.0)].map(|(steps, value)| {
+    // Several steps, each with arrays of its own; what does not change is written once.
+    let steps = [("0", 1.0), ("1", 2.0), ("7", 3.0)].map(|(steps, value)| {
         array("Float32", "p", 1, [value; 8]).replace("format", &format!("TimeStep=\"{steps}\" format"))
     });
     let piece = format!("<Piece><PointData>{}</PointData></Piece>", steps.concat());

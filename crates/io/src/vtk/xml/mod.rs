@@ -1,45 +1,40 @@
 //! The readers of VTK's XML files: unstructured grids, image data, rectilinear and structured grids, one file or several.
 //!
 //! A file is read in three steps that know little of each other: `elements` lists the arrays with their attributes and
-//! undecoded text, `payload` turns one array's text or appended bytes into numbers, `unstructured` or `structured` and `merge` put the arrays of all
+//! undecoded text, `payload` turns one array's text or appended bytes into numbers, `unstructured` or `structured` puts the arrays of all
 //! pieces together into a dataset. `parallel` and `collection` do so for files that name others.
 
 mod arrays;
 mod attributes;
-mod boxes;
-mod budget;
 mod collection;
 mod compression;
 mod elements;
-mod extent;
 mod faces;
 mod file;
-mod ghosts;
 mod list;
-mod merge;
 mod parallel;
 mod payload;
+mod steps;
 mod structured;
 mod unstructured;
 mod xz;
 
 #[cfg(test)]
-mod grid_tests;
+pub(in crate::vtk) mod grid_tests;
 #[cfg(test)]
 mod named_tests;
 #[cfg(test)]
 pub(in crate::vtk) mod tests;
 
-pub(crate) use collection::{BlocksReader, PvdReader};
+pub(crate) use collection::{BlocksReader, PvdReader, SeriesReader};
 pub(crate) use parallel::ParallelReader;
 
 use std::collections::HashSet;
 
-use tetrascope_mesh::{Cells, Dataset};
-
 use super::DAMAGED;
+use super::grids::budget::Budget;
+use super::grids::{NUMBERS_A_BYTE, dims_of, merge};
 use crate::{IoError, Loaded, MeshReader, Source};
-use budget::Budget;
 use file::{Appended, XmlFile};
 
 /// The kinds of dataset that one file holds.
@@ -72,12 +67,12 @@ impl Kind {
         }
     }
 
-    /// Numbers that all arrays of a file may come to, a byte of it. Real unstructured meshes, whose indices and coordinates differ, stay below 1. Of
-    /// an image a whole empty region is a few bytes, and a byte of a label is a number: the segmentation of a scan comes to some tens.
+    /// Numbers that all arrays of a file may come to, a byte of it. Real meshes, whose indices and
+    /// coordinates differ, stay below 1.
     fn numbers_per_byte(self) -> usize {
         match self {
             Self::Unstructured | Self::Structured => 16,
-            Self::Image | Self::Rectilinear => 128,
+            Self::Image | Self::Rectilinear => NUMBERS_A_BYTE,
         }
     }
 }
@@ -212,14 +207,4 @@ fn describe(file: &XmlFile<'_>) -> String {
         text = text + ", " + order;
     }
     text
-}
-
-fn dims_of(dataset: &Dataset) -> String {
-    match &dataset.cells {
-        Cells::Structured(blocks) if blocks.len() == 1 => {
-            let [i, j, k] = blocks[0].dims;
-            format!(", {i}x{j}x{k}")
-        }
-        _ => String::new(),
-    }
 }

@@ -157,6 +157,25 @@ fn collections_have_times_and_parts() {
 }
 
 #[test]
+fn file_series_have_times() {
+    let series = "{ \"file-series-version\" : \"1.0\",\n \"files\" : [ {\"name\" : \"a.vtu\", \"time\" : 0},\n { \"name\" : \"b.vtu\", \"time\" : 0.5 }, ] }";
+    let folder = folder(&[
+        ("bad.vtu.series", series.to_owned()),
+        ("s.vtu.series", series.replace("}, ]", "} ]")),
+        ("none.series", "{\"file-series-version\":\"1.0\",\"files\":[]}".to_owned()),
+        ("a.vtu", mesh(1.0, "")),
+        ("b.vtu", mesh(2.0, "")),
+    ]);
+    let loaded = open(folder.path(), "s.vtu.series", StepChoice::Number(1)).unwrap();
+    assert_eq!((loaded.times.as_slice(), values(&loaded.dataset)[0]), ([0.0, 0.5].as_slice(), 2.0));
+    assert!(loaded.warnings.is_empty(), "{:?}", loaded.warnings);
+    for (name, word) in [("bad.vtu.series", "line 3"), ("none.series", "no file is named")] {
+        let message = open(folder.path(), name, StepChoice::Last).unwrap_err().to_string();
+        assert!(message.contains(word), "{message}");
+    }
+}
+
+#[test]
 fn collections_do_not_name_collections() {
     let folder = folder(&[
         ("self.pvd", collection(&[("0", "self.pvd")])),

@@ -1,10 +1,11 @@
 //! Files that name the pieces of one dataset: `.pvtu`, `.pvti`, `.pvtr`, `.pvts`.
 
 use super::super::DAMAGED;
+use super::super::grids::budget::Budget;
+use super::super::grids::{dims_of, merge};
 use super::super::join::join;
-use super::budget::Budget;
 use super::list::{each_once, names};
-use super::{Kind, describe, distinct, elements, merge, root_type, structured, times, unstructured};
+use super::{Kind, describe, distinct, elements, root_type, structured, times, unstructured};
 use crate::{IoError, Loaded, MeshReader, Source};
 
 /// Reads files that name pieces of one kind.
@@ -71,7 +72,8 @@ impl MeshReader for ParallelReader {
             _ => merge::assemble(pieces, &mut warnings),
         };
         let dataset = joined.map_err(|problem| source.invalid("the pieces together", problem, DAMAGED))?;
-        let format = format!("{} of {} pieces: {format}", self.name(), named.len());
+        let plural = if named.len() == 1 { "piece" } else { "pieces" };
+        let format = format!("{} of {} {plural}: {format}{}", self.name(), named.len(), dims_of(&dataset));
         Ok(Loaded { dataset, format, warnings: distinct(warnings), times: known_times.0, step: known_times.1 })
     }
 }

@@ -409,7 +409,7 @@ fn vtu_many_pieces_are_not_looked_through_again_and_again() {
 #[test]
 fn vtu_arrays_have_a_limit_together() {
     let source = crate::Source { path: "a.vtu".into(), bytes: ascii_file().into_bytes(), ..Default::default() };
-    let budget = super::budget::Budget::default();
+    let budget = super::super::grids::budget::Budget::default();
     let parsed = super::elements::parse(&source, super::Kind::Unstructured, &budget).unwrap();
     parsed.budget.spend(1 << 20).unwrap();
     let error = parsed.budget.spend(1).unwrap_err();

@@ -5,11 +5,11 @@ use tetrascope_mesh::{Cells, Dataset};
 use super::super::DAMAGED;
 use super::super::cell_types::POLYHEDRON;
 use super::super::cells::CellBuilder;
+use super::super::grids::ghosts::leave_out_ghosts;
 use super::super::join::Joined;
 use super::arrays::{index_array, indices, read_data, read_points};
 use super::faces::{FaceArrays, broken_row, row};
 use super::file::{Piece, XmlFile};
-use super::ghosts::leave_out_ghosts;
 use super::payload::place;
 use crate::{IoError, Source};
 

@@ -4,7 +4,8 @@
 
 use tetrascope_mesh::{Cells, DataArray, Dataset, UnstructuredCells};
 
-use super::super::scalars::{kept, to_indices};
+use super::super::scalars::to_indices;
+use super::super::tuples::kept;
 
 /// A copy of another piece's cell, one that finer cells cover, one that is hidden. Other bits tell of the neighborhood.
 const LEFT_OUT_CELL: i64 = 1 | 8 | 32;
@@ -13,14 +14,14 @@ const LEFT_OUT_CELL: i64 = 1 | 8 | 32;
 const HIDDEN_POINT: i64 = 2;
 
 /// Takes the marks out of the arrays of cells: `true` for those that are left out. Empty where none is.
-pub(super) fn left_out_cells(arrays: &mut Vec<DataArray>) -> Vec<bool> {
+pub(in crate::vtk) fn left_out_cells(arrays: &mut Vec<DataArray>) -> Vec<bool> {
     let types = take(arrays, "vtkGhostType").map(|marks| marks.iter().map(|mark| mark & LEFT_OUT_CELL != 0).collect());
     let levels = take(arrays, "vtkGhostLevels").map(|levels| levels.iter().map(|&level| level > 0).collect());
     some_of(types.or(levels))
 }
 
 /// Takes the marks out of the arrays of points: `true` for those that are hidden. Empty where none is.
-pub(super) fn hidden_points(arrays: &mut Vec<DataArray>) -> Vec<bool> {
+pub(in crate::vtk) fn hidden_points(arrays: &mut Vec<DataArray>) -> Vec<bool> {
     take(arrays, "vtkGhostLevels");
     let types = take(arrays, "vtkGhostType");
     some_of(types.map(|marks| marks.iter().map(|mark| mark & HIDDEN_POINT != 0).collect()))
@@ -39,7 +40,7 @@ fn take(arrays: &mut Vec<DataArray>, name: &str) -> Option<Vec<i64>> {
 }
 
 /// Leaves the cells out that are marked, with their values, and says so.
-pub(super) fn leave_out_ghosts(dataset: &mut Dataset, warnings: &mut Vec<String>) {
+pub(in crate::vtk) fn leave_out_ghosts(dataset: &mut Dataset, warnings: &mut Vec<String>) {
     let left_out = left_out_cells(&mut dataset.cell_arrays);
     let hidden = hidden_points(&mut dataset.point_arrays);
     let Cells::Unstructured(cells) = &mut dataset.cells else { return };
@@ -65,7 +66,7 @@ pub(super) fn leave_out_ghosts(dataset: &mut Dataset, warnings: &mut Vec<String>
 }
 
 /// Why cells are left out.
-pub(super) const WHY: &str = "they are marked as copies of other pieces' cells, as refined or as hidden";
+pub(in crate::vtk) const WHY: &str = "they are marked as copies of other pieces' cells, as refined or as hidden";
 
 fn keep_cells(cells: &mut UnstructuredCells, keep: &[bool]) {
     let all = std::mem::take(cells);

@@ -3,13 +3,13 @@
 use glam::DVec3;
 use tetrascope_mesh::{Cells, DataArray, Dataset, StructuredBlock, UnstructuredCells};
 
-use super::super::hexahedra::push_hexahedra;
 use super::super::join::join;
-use super::super::scalars::{blank, copy_runs, copy_tuples, kept};
+use super::super::tuples::{Run, blank, copy_runs, copy_tuples, kept};
 use super::boxes::{Place, box_of, runs, taken_runs};
 use super::extent::Extent;
 use super::ghosts::WHY;
-use super::structured::{Geometry, GridPiece, is_same_lattice};
+use super::hexahedra::push_hexahedra;
+use super::{Geometry, GridPiece, is_same_lattice};
 
 /// Points of the box around all pieces, for each point of these. Pieces that overlap or leave gaps are no tiling, and where there is much of
 /// either the box would be larger than the files are.
@@ -33,7 +33,7 @@ struct Grid {
 }
 
 /// Puts the pieces of one grid together. The error says what does not fit.
-pub(super) fn assemble(mut pieces: Vec<GridPiece>, warnings: &mut Vec<String>) -> Result<Dataset, String> {
+pub(in crate::vtk) fn assemble(mut pieces: Vec<GridPiece>, warnings: &mut Vec<String>) -> Result<Dataset, String> {
     if pieces.is_empty() {
         return Ok(Dataset { cells: Cells::Structured(Vec::new()), ..Dataset::default() });
     }
@@ -196,7 +196,7 @@ fn cropped(dataset: Dataset, block: &StructuredBlock, at: [usize; 3], length: [u
         hidden_points = vec![false; point_count];
         copy_tuples(&mut hidden_points, &block.hidden_points, 1, &point_runs);
     }
-    let crop = |arrays: Vec<DataArray>, count: usize, runs: &[(usize, usize, usize)]| {
+    let crop = |arrays: Vec<DataArray>, count: usize, runs: &[Run]| {
         let crop = |array: DataArray| {
             let mut values = blank(&array.values, count * array.components);
             copy_runs(&mut values, &array.values, array.components, runs);
@@ -217,7 +217,7 @@ fn merged_arrays(
     owner: &str,
     mut pieces: Vec<Vec<DataArray>>,
     count: usize,
-    passes: &[&Vec<Vec<(usize, usize, usize)>>],
+    passes: &[&[Vec<Run>]],
     warnings: &mut Vec<String>,
 ) -> Vec<DataArray> {
     let Some((first, others)) = pieces.split_first_mut() else { return Vec::new() };
@@ -260,11 +260,7 @@ fn merged_arrays(
     merged
 }
 
-fn merged_geometry(
-    pieces: Vec<(Extent, Geometry)>,
-    around: &Extent,
-    point_runs: &[Vec<(usize, usize, usize)>],
-) -> Geometry {
+fn merged_geometry(pieces: Vec<(Extent, Geometry)>, around: &Extent, point_runs: &[Vec<Run>]) -> Geometry {
     let mut points = Vec::new();
     let mut coordinates = around.dims.map(|_| Vec::new());
     for ((extent, geometry), runs) in pieces.into_iter().zip(point_runs) {

@@ -9,7 +9,7 @@ const NUMBERS_ALWAYS: usize = 1 << 20;
 /// as bytes; what is more is compressed, or is named by several arrays at one offset. Without the bound, 100 kB of arrays that share an offset, or
 /// of zeros that were compressed, are gigabytes.
 #[derive(Debug, Default)]
-pub(super) struct Budget {
+pub(in crate::vtk) struct Budget {
     granted: Cell<usize>,
     per_byte: Cell<usize>,
     spent: Cell<usize>,
@@ -17,13 +17,13 @@ pub(super) struct Budget {
 
 impl Budget {
     /// Grants what a file of this length may come to.
-    pub(super) fn grant(&self, bytes: usize, per_byte: usize) {
+    pub(in crate::vtk) fn grant(&self, bytes: usize, per_byte: usize) {
         self.granted.set(self.granted.get().saturating_add(bytes.saturating_mul(per_byte)));
         self.per_byte.set(per_byte);
     }
 
     /// Takes so many numbers. The error says what the limit is, for the caller to add the place.
-    pub(super) fn spend(&self, numbers: usize) -> Result<(), String> {
+    pub(in crate::vtk) fn spend(&self, numbers: usize) -> Result<(), String> {
         let spent = self.spent.get().saturating_add(numbers);
         if spent > self.granted.get().max(NUMBERS_ALWAYS) {
             return Err(format!(

@@ -3,7 +3,11 @@
 use tetrascope_mesh::{CellKind, StructuredBlock, UnstructuredCells};
 
 /// Adds the cells of a block that are `taken` (cells counted i fastest). One with a hidden corner is of the kind that is not drawn.
-pub(super) fn push_hexahedra(cells: &mut UnstructuredCells, block: &StructuredBlock, taken: impl Fn(usize) -> bool) {
+pub(in crate::vtk) fn push_hexahedra(
+    cells: &mut UnstructuredCells,
+    block: &StructuredBlock,
+    taken: impl Fn(usize) -> bool,
+) {
     let [ni, nj, _] = block.dims;
     let [cells_i, cells_j, cells_k] = block.dims.map(|n| n.saturating_sub(1));
     // In VTK's order: round the lower quadrilateral, then round the upper one.

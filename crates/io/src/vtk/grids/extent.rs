@@ -7,16 +7,16 @@ const LARGEST: i64 = 1 << 40;
 
 /// A box of points of a grid.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) struct Extent {
+pub(in crate::vtk) struct Extent {
     /// Numbers of the first point along i, j and k.
-    pub(super) low: [i64; 3],
+    pub(in crate::vtk) low: [i64; 3],
     /// Number of points along each; 0 along any where the box is empty.
-    pub(super) dims: [usize; 3],
+    pub(in crate::vtk) dims: [usize; 3],
 }
 
 impl Extent {
     /// From first and last numbers along i, j and k, in a text. The error says what is wrong with it.
-    pub(super) fn parse(text: &str) -> Result<Self, String> {
+    pub(in crate::vtk) fn parse(text: &str) -> Result<Self, String> {
         let words: Result<Vec<i64>, _> = text.split_ascii_whitespace().map(str::parse).collect();
         let numbers: [i64; 6] =
             words.ok().and_then(|words| words.try_into().ok()).ok_or("it is not six whole numbers")?;
@@ -32,33 +32,41 @@ impl Extent {
         Ok(Self { low: [i0, j0, k0], dims })
     }
 
+    /// From numbers of points, counted from 0. The error says why they make no grid.
+    pub(in crate::vtk) fn of_dims(dims: [usize; 3]) -> Result<Self, String> {
+        if !dims.contains(&0) {
+            check_dims(dims)?;
+        }
+        Ok(Self { low: [0; 3], dims })
+    }
+
     /// Whether it has no point.
-    pub(super) fn is_empty(&self) -> bool {
+    pub(in crate::vtk) fn is_empty(&self) -> bool {
         self.dims.contains(&0)
     }
 
     /// Number of points.
-    pub(super) fn point_count(&self) -> usize {
+    pub(in crate::vtk) fn point_count(&self) -> usize {
         self.dims.iter().product()
     }
 
     /// The numbers of cells along i, j and k. A direction with one point has one layer of flat cells.
-    pub(super) fn cell_dims(&self) -> [usize; 3] {
+    pub(in crate::vtk) fn cell_dims(&self) -> [usize; 3] {
         if self.is_empty() { [0; 3] } else { self.dims.map(|n| (n - 1).max(1)) }
     }
 
     /// Number of cells, flat ones included.
-    pub(super) fn cell_count(&self) -> usize {
+    pub(in crate::vtk) fn cell_count(&self) -> usize {
         self.cell_dims().iter().product()
     }
 
     /// Whether its cells have no volume.
-    pub(super) fn is_flat(&self) -> bool {
+    pub(in crate::vtk) fn is_flat(&self) -> bool {
         self.dims.contains(&1)
     }
 
     /// The smallest box that holds all of these; nothing where it has more points than a mesh can have.
-    pub(super) fn around(boxes: impl Iterator<Item = Self>) -> Option<Self> {
+    pub(in crate::vtk) fn around(boxes: impl Iterator<Item = Self>) -> Option<Self> {
         let ends = |e: &Self| [0, 1, 2].map(|axis| e.low[axis] + e.dims[axis] as i64);
         let (low, end) = boxes.filter(|one| !one.is_empty()).fold(([i64::MAX; 3], [i64::MIN; 3]), |(low, end), one| {
             let others = ends(&one);
@@ -73,7 +81,7 @@ impl Extent {
     }
 
     /// Where this box begins in a larger one that holds it.
-    pub(super) fn within(&self, larger: &Self) -> [usize; 3] {
+    pub(in crate::vtk) fn within(&self, larger: &Self) -> [usize; 3] {
         [0, 1, 2].map(|axis| usize::try_from(self.low[axis] - larger.low[axis]).unwrap_or(0))
     }
 }

@@ -1,16 +1,18 @@
 //! Runs of points or cells that two boxes of a grid share.
 
+use super::super::tuples::Run;
+
 /// A box within a larger grid.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Place {
+pub(in crate::vtk) struct Place {
     /// The grid's length along i, j and k.
-    pub(super) dims: [usize; 3],
+    pub(in crate::vtk) dims: [usize; 3],
     /// Where the box begins in it.
-    pub(super) at: [usize; 3],
+    pub(in crate::vtk) at: [usize; 3],
 }
 
 /// What a box takes in each of two grids: runs along i of `(from, to, length)`.
-pub(super) fn runs(length: [usize; 3], from: Place, to: Place) -> Vec<(usize, usize, usize)> {
+pub(in crate::vtk) fn runs(length: [usize; 3], from: Place, to: Place) -> Vec<Run> {
     let index = |place: &Place, j: usize, k: usize| {
         place.at[0] + place.dims[0] * (place.at[1] + j + place.dims[1] * (place.at[2] + k))
     };
@@ -22,11 +24,8 @@ pub(super) fn runs(length: [usize; 3], from: Place, to: Place) -> Vec<(usize, us
 }
 
 /// The parts of runs whose `from` is taken.
-pub(super) fn taken_runs(
-    runs: &[(usize, usize, usize)],
-    is_taken: impl Fn(usize) -> bool,
-) -> Vec<(usize, usize, usize)> {
-    let mut all: Vec<(usize, usize, usize)> = Vec::new();
+pub(in crate::vtk) fn taken_runs(runs: &[Run], is_taken: impl Fn(usize) -> bool) -> Vec<Run> {
+    let mut all: Vec<Run> = Vec::new();
     for &(from, to, length) in runs {
         let mut open = false;
         for step in 0..length {
@@ -43,7 +42,7 @@ pub(super) fn taken_runs(
 }
 
 /// The smallest box that holds all cells that are taken: where it begins, and its length; nothing where none is.
-pub(super) fn box_of(dims: [usize; 3], is_taken: impl Fn(usize) -> bool) -> Option<([usize; 3], [usize; 3])> {
+pub(in crate::vtk) fn box_of(dims: [usize; 3], is_taken: impl Fn(usize) -> bool) -> Option<([usize; 3], [usize; 3])> {
     let (mut low, mut end) = ([usize::MAX; 3], [0; 3]);
     let mut cell = 0;
     for k in 0..dims[2] {
