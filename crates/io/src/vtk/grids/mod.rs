@@ -11,14 +11,12 @@ use glam::DVec3;
 use tetrascope_mesh::{Cells, DataArray, Dataset};
 
 use crate::grid::RegularGrid;
+use budget::Limit;
 use extent::Extent;
 
-/// Numbers that a point takes, whether the file lists its coordinates or not.
-const NUMBERS_A_POINT: usize = 3;
-
-/// Numbers that all arrays of an image or rectilinear grid may come to, a byte of the file: of an image a whole empty region is a few
-/// compressed bytes, and a byte of a label is a number, so that the segmentation of a scan comes to some tens.
-pub(super) const NUMBERS_A_BYTE: usize = 128;
+/// What an image or a rectilinear grid may come to in memory: of an image a whole empty region is a few compressed bytes, so that the
+/// segmentation of a scan comes to several hundred bytes a byte of its file.
+pub(super) const GRID_LIMIT: Limit = Limit::BytesAByte(1024);
 
 /// One piece of a grid.
 #[derive(Debug)]
@@ -61,9 +59,9 @@ impl Default for Lattice {
     }
 }
 
-/// Takes what a grid's points come to from the budget. The error says what the limit is.
+/// Takes what a grid's points come to from the budget, as if their coordinates were listed. The error says what the limit is.
 pub(super) fn spend_points(budget: &budget::Budget, extent: &Extent) -> Result<(), String> {
-    budget.spend(extent.point_count().saturating_mul(NUMBERS_A_POINT))
+    budget.spend(extent.point_count().saturating_mul(3), size_of::<f64>())
 }
 
 impl Geometry {

@@ -7,7 +7,7 @@ use super::super::DAMAGED;
 use super::super::grids::budget::Budget;
 use super::super::grids::extent::Extent;
 use super::super::grids::ghosts::{hidden_points, left_out_cells};
-use super::super::grids::{Geometry, GridPiece, Lattice, NUMBERS_A_BYTE, merge, spend_points};
+use super::super::grids::{GRID_LIMIT, Geometry, GridPiece, Lattice, merge, spend_points};
 use super::super::xml::Kind;
 use super::lexer::{LegacyType, Lexer};
 use crate::IoError;
@@ -87,8 +87,8 @@ pub(super) fn build_grid(
 ) -> Result<Dataset, IoError> {
     let extent = lines.extent(lexer)?;
     let broken = |place: &str, problem: String| lexer.source.invalid(place, problem, DAMAGED);
-    let budget = Budget::default();
-    budget.grant(lexer.source.bytes.len(), NUMBERS_A_BYTE);
+    let budget = Budget::new(GRID_LIMIT);
+    budget.grant(lexer.source.bytes.len());
     let spend = || spend_points(&budget, &extent).map_err(|problem| broken("DIMENSIONS", problem));
     let expect = |place: &str, found: usize, expected: usize| {
         if found == expected {

@@ -15,7 +15,7 @@ use super::Kind;
 use super::attributes::{Attributes, line, shorten};
 use super::compression::Compressor;
 use super::file::{Appended, ArrayElement, Piece, XmlFile, without_mark};
-use super::steps::{keep_last_listed, last_step};
+use super::steps::{is_piece_a_step, keep_last_listed, last_step};
 use crate::{IoError, Source};
 
 /// What an open element is; all that matters for knowing where an array belongs.
@@ -54,7 +54,7 @@ pub(super) fn parse<'a>(source: &'a Source, kind: Kind, budget: &'a Budget) -> R
         times: Vec::new(),
         step: 0,
     };
-    budget.grant(bytes.len(), kind.numbers_per_byte());
+    budget.grant(bytes.len());
     let mut whole_extent = None;
     let mut open: Vec<Open> = Vec::new();
     let mut root_seen = false;
@@ -150,7 +150,10 @@ pub(super) fn parse<'a>(source: &'a Source, kind: Kind, budget: &'a Budget) -> R
             _ => {}
         }
     }
-    if !file.times.is_empty() {
+    if is_piece_a_step(&file) {
+        let step = file.pieces.swap_remove(file.step);
+        file.pieces = vec![step];
+    } else if !file.times.is_empty() {
         for piece in &mut file.pieces {
             let Piece { point_data, cell_data, points, cells, coordinates, .. } = piece;
             [point_data, cell_data, points, cells, coordinates].into_iter().for_each(keep_last_listed);

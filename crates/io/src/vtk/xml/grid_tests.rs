@@ -242,6 +242,14 @@ fn times_in_the_file() {
     let loaded = good(&file);
     assert_eq!((loaded.times.len(), loaded.step), (3, 2));
     assert_eq!(loaded.dataset.point_arrays[0].component(0)[0], 2.0);
+    // Each step a piece, all as the first step.
+    let of = |value: f64| {
+        let p = array("Float32", "p", 1, [value; 8]).replace("format", "TimeStep=\"0\" format");
+        format!("<Piece Extent=\"0 1 0 1 0 1\"><PointData>{p}</PointData></Piece>")
+    };
+    let pieces = grid("ImageData", "TimeValues=\"0 1\"", &(of(5.0) + &of(6.0)));
+    let loaded = good(&pieces);
+    assert_eq!((loaded.step, loaded.dataset.points.len(), loaded.dataset.point_arrays[0].component(0)[0]), (1, 8, 6.0));
     let mut source = crate::Source { path: "t.vti".into(), bytes: file.into_bytes(), ..Default::default() };
     source.options.step = crate::StepChoice::Time(0.1);
     let first = crate::MeshReader::read(&super::super::VTI, &source).unwrap();

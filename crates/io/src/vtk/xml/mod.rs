@@ -32,8 +32,8 @@ pub(crate) use parallel::ParallelReader;
 use std::collections::HashSet;
 
 use super::DAMAGED;
-use super::grids::budget::Budget;
-use super::grids::{NUMBERS_A_BYTE, dims_of, merge};
+use super::grids::budget::{Budget, Limit};
+use super::grids::{GRID_LIMIT, dims_of, merge};
 use crate::{IoError, Loaded, MeshReader, Source};
 use file::{Appended, XmlFile};
 
@@ -67,12 +67,11 @@ impl Kind {
         }
     }
 
-    /// Numbers that all arrays of a file may come to, a byte of it. Real meshes, whose indices and
-    /// coordinates differ, stay below 1.
-    fn numbers_per_byte(self) -> usize {
+    /// What the arrays of a file may come to. Real meshes, whose indices and coordinates differ, stay below one number a byte.
+    fn limit(self) -> Limit {
         match self {
-            Self::Unstructured | Self::Structured => 16,
-            Self::Image | Self::Rectilinear => NUMBERS_A_BYTE,
+            Self::Unstructured | Self::Structured => Limit::NumbersAByte(16),
+            Self::Image | Self::Rectilinear => GRID_LIMIT,
         }
     }
 }
@@ -121,7 +120,7 @@ impl MeshReader for XmlReader {
     }
 
     fn read(&self, source: &Source) -> Result<Loaded, IoError> {
-        let budget = Budget::default();
+        let budget = Budget::new(self.kind.limit());
         let file = elements::parse(source, self.kind, &budget)?;
         let mut warnings = Vec::new();
         let dataset = match self.kind {

@@ -52,7 +52,7 @@ impl MeshReader for ParallelReader {
         let mut warnings = Vec::new();
         let named = names(source, &[self.kind.parallel_type_name()], "Piece", "Source", &[])?;
         let named = each_once(source, named, &mut warnings)?;
-        let budget = Budget::default();
+        let budget = Budget::new(self.kind.limit());
         let (mut parts, mut pieces) = (Vec::new(), Vec::new());
         let (mut format, mut known_times) = (String::new(), (Vec::new(), 0));
         for one in &named {

@@ -57,7 +57,7 @@ pub(super) fn decode(
     label: &str,
 ) -> Result<ArrayValues, IoError> {
     let invalid = |problem: String| source.invalid(place(source, array, label), problem, DAMAGED);
-    let bytes = match array.format.as_str() {
+    let bytes = match array.format.to_ascii_lowercase().as_str() {
         "ascii" => {
             let mut words = array.text.iter().flat_map(|text| text.split_ascii_whitespace());
             return scalar.parse_words(&mut words, usize::MAX).map_err(|bad| {
@@ -183,11 +183,11 @@ fn read_bytes<'a>(mut encoded: Encoded<'a>, file: &XmlFile<'_>, scalar: ScalarTy
         if encoded.is_apart(size) {
             encoded.take(size)?;
             let bytes = encoded.take(first)?;
-            return file.budget.spend(first / scalar.size()).map(|()| bytes);
+            return file.budget.spend(first / scalar.size(), scalar.size()).map(|()| bytes);
         }
         let total = first.checked_add(size).ok_or_else(|| format!("{first} bytes are declared"))?;
         let mut bytes = encoded.take(total)?.into_owned();
-        file.budget.spend(first / scalar.size())?;
+        file.budget.spend(first / scalar.size(), scalar.size())?;
         bytes.drain(..size);
         return Ok(Cow::Owned(bytes));
     };
@@ -212,7 +212,7 @@ fn read_bytes<'a>(mut encoded: Encoded<'a>, file: &XmlFile<'_>, scalar: ScalarTy
     let blocks = encoded.take(total)?;
     let declared_of = |number: usize| if number + 1 == stored.len() && last_size != 0 { last_size } else { block_size };
     let inflated = (stored.len() - 1).saturating_mul(block_size).saturating_add(declared_of(stored.len() - 1));
-    file.budget.spend(inflated / scalar.size())?;
+    file.budget.spend(inflated / scalar.size(), scalar.size())?;
     let mut decompressor = Decompressor::new(compressor);
     let mut out = Vec::new();
     let mut at = 0;

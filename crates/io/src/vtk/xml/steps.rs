@@ -3,7 +3,7 @@
 use std::collections::HashMap;
 
 use super::attributes::Attributes;
-use super::file::{ArrayElement, Listed};
+use super::file::{ArrayElement, Listed, XmlFile};
 use crate::IoError;
 
 /// The last step, up to the one that is read, that an array is listed for; nothing where it says nothing of steps.
@@ -29,4 +29,12 @@ pub(super) fn keep_last_listed(arrays: &mut Vec<ArrayElement<'_>>) {
         Some(Listed::Later) => false,
         Some(Listed::In(step)) => last.get(&array.name) == Some(&step),
     });
+}
+
+/// Whether each step is a piece of its own whose arrays all say that they are of the first one, as VTK writes it where the numbers are not appended.
+pub(super) fn is_piece_a_step(file: &XmlFile<'_>) -> bool {
+    let mut arrays = file.pieces.iter().flat_map(|piece| piece.arrays().chain(&piece.cells));
+    file.times.len() > 1
+        && file.pieces.len() == file.times.len()
+        && arrays.all(|array| array.listed == Some(Listed::In(0)))
 }

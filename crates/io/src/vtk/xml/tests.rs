@@ -409,9 +409,9 @@ fn vtu_many_pieces_are_not_looked_through_again_and_again() {
 #[test]
 fn vtu_arrays_have_a_limit_together() {
     let source = crate::Source { path: "a.vtu".into(), bytes: ascii_file().into_bytes(), ..Default::default() };
-    let budget = super::super::grids::budget::Budget::default();
+    let budget = super::super::grids::budget::Budget::new(super::super::grids::budget::Limit::NumbersAByte(16));
     let parsed = super::elements::parse(&source, super::Kind::Unstructured, &budget).unwrap();
-    parsed.budget.spend(1 << 20).unwrap();
-    let error = parsed.budget.spend(1).unwrap_err();
+    parsed.budget.spend(1 << 20, 4).unwrap();
+    let error = parsed.budget.spend(1, 4).unwrap_err();
     assert!(error.contains("16 numbers a byte") && error.contains("limit"), "{error}");
 }
