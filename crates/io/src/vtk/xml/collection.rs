@@ -1,4 +1,5 @@
-//! Files that name whole meshes: ParaView's collections (`.pvd`) and file series (`.series`), with the time of each, and VTK's multi-block datasets (`.vtm`).
+//! Files that name whole meshes: ParaView's collections (`.pvd`) and file series (`.series`), with the time of each, and VTK's
+//! multi-block datasets (`.vtm`).
 
 use std::collections::HashSet;
 

@@ -12,9 +12,10 @@ use super::super::grids::budget::Budget;
 use super::super::grids::extent::Extent;
 use super::super::scalars::ByteOrder;
 use super::Kind;
+use super::appended::find_appended;
 use super::attributes::{Attributes, line, shorten};
 use super::compression::Compressor;
-use super::file::{Appended, ArrayElement, Piece, XmlFile, without_mark};
+use super::file::{ArrayElement, Piece, XmlFile, without_mark};
 use super::steps::{is_piece_a_step, keep_last_listed, last_step};
 use crate::{IoError, Source};
 
@@ -86,7 +87,7 @@ pub(super) fn parse<'a>(source: &'a Source, kind: Kind, budget: &'a Budget) -> R
                         Open::Grid
                     }
                     (Some(Open::Root), "AppendedData") => {
-                        file.appended = Some(read_appended(&attributes, position(&reader))?);
+                        file.appended = Some(find_appended(&attributes, position(&reader))?);
                         // The section is not XML: nothing behind this tag may be parsed as such.
                         break;
                     }
@@ -282,21 +283,4 @@ fn read_array<'a>(attributes: &Attributes<'_, '_>, step: usize) -> Result<ArrayE
         text: Vec::new(),
         position: attributes.start,
     })
-}
-
-/// Finds the section by its bytes: it begins behind the first underscore behind the tag, with only white space between.
-fn read_appended<'a>(attributes: &Attributes<'_, 'a>, end_of_tag: usize) -> Result<Appended<'a>, IoError> {
-    let rest = attributes.bytes.get(end_of_tag..).unwrap_or_default().trim_ascii_start();
-    let Some(section) = rest.strip_prefix(b"_") else {
-        let problem = "the appended data does not start with an underscore";
-        return Err(attributes.source.invalid(attributes.place(), problem, DAMAGED));
-    };
-    match attributes.get("encoding")?.as_deref().map(str::trim) {
-        Some("raw") => Ok(Appended::Raw(section)),
-        None | Some("base64") => {
-            let end = section.iter().position(|&byte| byte == b'<').unwrap_or(section.len());
-            Ok(Appended::Base64(section[..end].trim_ascii_end()))
-        }
-        Some(other) => Err(attributes.unknown("encoding", other, "raw and base64")),
-    }
 }

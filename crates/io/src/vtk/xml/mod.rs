@@ -4,6 +4,7 @@
 //! undecoded text, `payload` turns one array's text or appended bytes into numbers, `unstructured` or `structured` puts the arrays of all
 //! pieces together into a dataset. `parallel` and `collection` do so for files that name others.
 
+mod appended;
 mod arrays;
 mod attributes;
 mod collection;
