@@ -24,8 +24,7 @@
 //! ```
 //!
 //! This crate and the command line are the only ones that open files; neither prints here. Files are read whole into
-//! memory. Exodus and image-data formats are recognized and refused with a way to convert them.
-//! memory; of an OpenFOAM case, which is a folder, only those of the chosen time step. Gmsh, Exodus and image-data formats are recognized and refused with a way to convert them.
+//! memory; of an OpenFOAM case, which is a folder, only those of the chosen time step. Exodus is recognized and refused with a way to convert it.
 
 mod bytes;
 mod error;

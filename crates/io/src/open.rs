@@ -3,19 +3,34 @@
 use std::path::Path;
 
 use crate::read::printable;
-use crate::{IoError, Loaded, MeshReader, ReadOptions, Source, foreign, gmsh::GMSH, plot3d::PLOT3D, vtk};
 use crate::{
-    IoError, Loaded, MeshReader, RawVolume, ReadOptions, Source, foreign, nrrd::NRRD, plot3d::PLOT3D, raw::RAW, vtk,
+    IoError, Loaded, MeshReader, RawVolume, ReadOptions, Source, foreign, gmsh::GMSH, nrrd::NRRD, openfoam::OPENFOAM,
+    plot3d::PLOT3D, raw::RAW, vtk,
 };
-use crate::{IoError, Loaded, MeshReader, ReadOptions, Source, foreign, openfoam::OPENFOAM, plot3d::PLOT3D, vtk};
 
 /// All readers, in the order in which they are asked whether they recognize a file.
 ///
 /// PLOT3D is last: its files begin with nothing that tells them apart, so that it judges by whether all sizes fit.
 pub fn readers() -> &'static [&'static dyn MeshReader] {
-    static READERS: [&dyn MeshReader; 4] = [&vtk::VTU, &vtk::LEGACY, &GMSH, &PLOT3D];
-    static READERS: [&dyn MeshReader; 5] = [&vtk::VTU, &vtk::LEGACY, &NRRD, &RAW, &PLOT3D];
-    static READERS: [&dyn MeshReader; 4] = [&vtk::VTU, &vtk::LEGACY, &OPENFOAM, &PLOT3D];
+    static READERS: [&dyn MeshReader; 17] = [
+        &vtk::VTU,
+        &vtk::VTI,
+        &vtk::VTR,
+        &vtk::VTS,
+        &vtk::PVTU,
+        &vtk::PVTI,
+        &vtk::PVTR,
+        &vtk::PVTS,
+        &vtk::PVD,
+        &vtk::SERIES,
+        &vtk::BLOCKS,
+        &vtk::LEGACY,
+        &GMSH,
+        &NRRD,
+        &OPENFOAM,
+        &RAW,
+        &PLOT3D,
+    ];
     &READERS
 }
 
@@ -29,6 +44,15 @@ pub fn readers() -> &'static [&'static dyn MeshReader] {
 /// [`IoError::Read`] when the system does not give the file, [`IoError::Unsupported`] when no reader takes it (the message
 /// lists those there are), [`IoError::Invalid`] when it is broken.
 pub fn read_mesh(path: &Path, options: &ReadOptions) -> Result<Loaded, IoError> {
+    open(path, options, true)
+}
+
+/// Reads a mesh that another file names, of any format but those that name meshes themselves: such files could name each other without end.
+pub(crate) fn read_part(path: &Path) -> Result<Loaded, IoError> {
+    open(path, &ReadOptions::default(), false)
+}
+
+fn open(path: &Path, options: &ReadOptions, may_name_meshes: bool) -> Result<Loaded, IoError> {
     let source = |bytes: Vec<u8>| Source { path: path.to_owned(), bytes, options: options.clone() };
     let by_path = readers().iter().copied().find(|reader| reader.takes(path));
     if let Some(reader) = by_path {
@@ -48,6 +72,12 @@ pub fn read_mesh(path: &Path, options: &ReadOptions) -> Result<Loaded, IoError> 
             None => expected.ok_or_else(|| foreign::refuse_by_extension(path, readers()))?,
         },
     };
+    if reader.names_meshes() && !may_name_meshes {
+        return Err(source.unsupported(
+            format!("a file that names meshes ({}) inside another", reader.name()),
+            "name the meshes themselves in the outer file, or read the inner one by itself",
+        ));
+    }
 
     let mut loaded = finished(&source, reader)?;
     let named_otherwise =
@@ -145,7 +175,7 @@ mod tests {
         assert!(refusal("empty.vtu", b"").contains("empty (0 bytes)"));
         assert!(refusal("fluent.msh", b"(0 \"Fluent\")").contains("Fluent"));
         assert!(refusal("can.whatever", b"CDF\x02....").contains("Exodus"));
-        assert!(refusal("unrecognizable.vti", b"what is this").contains("VTI"));
+        assert!(refusal("unrecognizable.vti", b"what is this").contains("XML"));
         assert!(refusal("notes.txt", b"nothing of the kind").contains(".exo"));
         assert!(refusal("noextension", b"nothing of the kind").contains("no extension"));
     }

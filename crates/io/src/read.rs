@@ -78,6 +78,11 @@ pub trait MeshReader: Sync {
         false
     }
 
+    /// Whether its files name others that any reader may read. Such a file is not read where another one names it.
+    fn names_meshes(&self) -> bool {
+        false
+    }
+
     /// Reads it.
     ///
     /// # Errors
