@@ -22,12 +22,6 @@ const TO_CELLS: &str = "ParaView can turn it into a .vtu file (filter Append Dat
 
 const FOREIGN: &[Foreign] = &[
     Foreign { name: "Gmsh", extensions: &["msh"], magic: &[b"$MeshFormat", b"$NOD"], remedy: CONVERT },
-    Foreign {
-        name: "Exodus",
-        extensions: &["e", "ex2", "exo", "exii", "gen"],
-        magic: &[b"CDF\x01", b"CDF\x02", b"CDF\x05", b"\x89HDF\r\n\x1a\n"],
-        remedy: CONVERT,
-    },
     Foreign { name: "NRRD", extensions: &["nrrd", "nhdr"], magic: &[b"NRRD000"], remedy: TO_CELLS },
     Foreign { name: "VTI (VTK image data)", extensions: &["vti"], magic: &[], remedy: TO_CELLS },
     Foreign { name: "VTR (VTK rectilinear grid)", extensions: &["vtr"], magic: &[], remedy: TO_CELLS },
@@ -75,7 +69,7 @@ pub(crate) fn refuse_by_extension(path: &Path, readers: &[&dyn MeshReader]) -> I
                 format!("this content, or the extension .{extension},")
             },
             remedy: format!(
-                "{}; Gmsh (.msh), Exodus (.e, .ex2, .exo), NRRD and VTI, VTR, VTS are not read yet: ParaView or \
+                "{}; Gmsh (.msh), NRRD and VTI, VTR, VTS are not read yet: ParaView or \
                  meshio can convert them to .vtu",
                 formats_read(readers)
             ),

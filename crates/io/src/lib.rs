@@ -24,10 +24,12 @@
 //! ```
 //!
 //! This crate and the command line are the only ones that open files; neither prints here. Files are read whole into
-//! memory. Gmsh, Exodus and image-data formats are recognized and refused with a way to convert them.
+//! memory. Gmsh and image-data formats are recognized and refused with a way to convert them.
 
+mod budget;
 mod bytes;
 mod error;
+mod exodus;
 mod foreign;
 mod grid;
 mod heights;

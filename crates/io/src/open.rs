@@ -3,13 +3,15 @@
 use std::path::Path;
 
 use crate::read::printable;
-use crate::{IoError, Loaded, MeshReader, ReadOptions, Source, foreign, plot3d::PLOT3D, vtk};
+use crate::{
+    IoError, Loaded, MeshReader, ReadOptions, Source, exodus::EXODUS, foreign, plot3d::PLOT3D, vtk,
+};
 
 /// All readers, in the order in which they are asked whether they recognize a file.
 ///
 /// PLOT3D is last: its files begin with nothing that tells them apart, so that it judges by whether all sizes fit.
 pub fn readers() -> &'static [&'static dyn MeshReader] {
-    static READERS: [&dyn MeshReader; 3] = [&vtk::VTU, &vtk::LEGACY, &PLOT3D];
+    static READERS: [&dyn MeshReader; 4] = [&vtk::VTU, &vtk::LEGACY, &EXODUS, &PLOT3D];
     &READERS
 }
 
@@ -135,7 +137,6 @@ mod tests {
         assert!(refusal("empty.vtu", b"").contains("empty (0 bytes)"));
         let gmsh = refusal("block.msh", b"$MeshFormat\n4.1 0 8\n");
         assert!(gmsh.contains("Gmsh is not supported") && gmsh.contains("meshio"), "{gmsh}");
-        assert!(refusal("can.whatever", b"CDF\x02....").contains("Exodus"));
         assert!(refusal("volume.nhdr", b"NRRD0004\n").contains("NRRD"));
         assert!(refusal("unrecognizable.vti", b"what is this").contains("VTI"));
         assert!(refusal("notes.txt", b"nothing of the kind").contains(".msh"));

@@ -3,11 +3,11 @@
 //! Both hand the same three things to the same code: numbers of a declared type ([`scalars`]), cells as rows of point
 //! indices ([`cells`]) and arrays with names ([`named`]). What differs is how each finds them in its file. [`write_vtu`] writes the second.
 
-mod cell_types;
-mod cells;
+pub(crate) mod cell_types;
+pub(crate) mod cells;
 mod legacy;
-mod named;
-mod scalars;
+pub(crate) mod named;
+pub(crate) mod scalars;
 mod vtu;
 mod write;
 
