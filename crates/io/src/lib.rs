@@ -38,6 +38,7 @@ mod picture;
 mod plot3d;
 mod read;
 mod vtk;
+mod vtkhdf;
 
 pub use error::IoError;
 pub use heights::{read_heights, write_heights};

@@ -4,14 +4,14 @@ use std::path::Path;
 
 use crate::read::printable;
 use crate::{
-    IoError, Loaded, MeshReader, ReadOptions, Source, exodus::EXODUS, foreign, plot3d::PLOT3D, vtk,
+    IoError, Loaded, MeshReader, ReadOptions, Source, exodus::EXODUS, foreign, plot3d::PLOT3D, vtk, vtkhdf::VTKHDF,
 };
 
 /// All readers, in the order in which they are asked whether they recognize a file.
 ///
-/// PLOT3D is last: its files begin with nothing that tells them apart, so that it judges by whether all sizes fit.
+/// VTKHDF is asked before Exodus, which takes any file of HDF5; PLOT3D is last: its files begin with nothing that tells them apart, so that it judges by whether all sizes fit.
 pub fn readers() -> &'static [&'static dyn MeshReader] {
-    static READERS: [&dyn MeshReader; 4] = [&vtk::VTU, &vtk::LEGACY, &EXODUS, &PLOT3D];
+    static READERS: [&dyn MeshReader; 5] = [&vtk::VTU, &vtk::LEGACY, &VTKHDF, &EXODUS, &PLOT3D];
     &READERS
 }
 
