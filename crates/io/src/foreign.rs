@@ -19,12 +19,6 @@ const UNPACK: &str = "unpack it and name the file inside";
 
 const FOREIGN: &[Foreign] = &[
     Foreign {
-        name: "Exodus",
-        extensions: &["e", "ex2", "exo", "exii", "gen"],
-        magic: &[b"CDF\x01", b"CDF\x02", b"CDF\x05", b"\x89HDF\r\n\x1a\n"],
-        remedy: CONVERT,
-    },
-    Foreign {
         name: "a surface (it has no volume)",
         extensions: &["vtp", "stl", "ply", "obj"],
         magic: &[],
@@ -60,11 +54,7 @@ pub(crate) fn refuse_by_extension(path: &Path, readers: &[&dyn MeshReader]) -> I
             } else {
                 format!("this content, or the extension .{extension},")
             },
-            remedy: format!(
-                "{}; Exodus (.e, .ex2, .exo) is not read yet: ParaView or \
-                 meshio can convert them to .vtu",
-                formats_read(readers)
-            ),
+            remedy: format!("{}; ParaView or meshio can convert most others to .vtu", formats_read(readers)),
         },
     }
 }

@@ -24,10 +24,12 @@
 //! ```
 //!
 //! This crate and the command line are the only ones that open files; neither prints here. Files are read whole into
-//! memory; of an OpenFOAM case, which is a folder, only those of the chosen time step. Exodus is recognized and refused with a way to convert it.
+//! memory; of an OpenFOAM case, which is a folder, only those of the chosen time step.
 
+mod budget;
 mod bytes;
 mod error;
+mod exodus;
 mod foreign;
 mod gmsh;
 mod grid;
@@ -42,6 +44,7 @@ mod read;
 mod sample;
 mod unpack;
 mod vtk;
+mod vtkhdf;
 
 pub use bytes::ByteOrder;
 pub use error::IoError;

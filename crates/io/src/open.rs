@@ -4,15 +4,15 @@ use std::path::Path;
 
 use crate::read::printable;
 use crate::{
-    IoError, Loaded, MeshReader, RawVolume, ReadOptions, Source, foreign, gmsh::GMSH, nrrd::NRRD, openfoam::OPENFOAM,
-    plot3d::PLOT3D, raw::RAW, vtk,
+    IoError, Loaded, MeshReader, RawVolume, ReadOptions, Source, exodus::EXODUS, foreign, gmsh::GMSH, nrrd::NRRD,
+    openfoam::OPENFOAM, plot3d::PLOT3D, raw::RAW, vtk, vtkhdf::VTKHDF,
 };
 
 /// All readers, in the order in which they are asked whether they recognize a file.
 ///
-/// PLOT3D is last: its files begin with nothing that tells them apart, so that it judges by whether all sizes fit.
+/// VTKHDF is asked before Exodus, which takes any file of HDF5; PLOT3D is last: its files begin with nothing that tells them apart, so that it judges by whether all sizes fit.
 pub fn readers() -> &'static [&'static dyn MeshReader] {
-    static READERS: [&dyn MeshReader; 17] = [
+    static READERS: [&dyn MeshReader; 19] = [
         &vtk::VTU,
         &vtk::VTI,
         &vtk::VTR,
@@ -25,6 +25,8 @@ pub fn readers() -> &'static [&'static dyn MeshReader] {
         &vtk::SERIES,
         &vtk::BLOCKS,
         &vtk::LEGACY,
+        &VTKHDF,
+        &EXODUS,
         &GMSH,
         &NRRD,
         &OPENFOAM,
@@ -174,7 +176,6 @@ mod tests {
         assert!(png.contains("PNG picture") && png.contains("PLOT3D"), "{png}");
         assert!(refusal("empty.vtu", b"").contains("empty (0 bytes)"));
         assert!(refusal("fluent.msh", b"(0 \"Fluent\")").contains("Fluent"));
-        assert!(refusal("can.whatever", b"CDF\x02....").contains("Exodus"));
         assert!(refusal("unrecognizable.vti", b"what is this").contains("XML"));
         assert!(refusal("notes.txt", b"nothing of the kind").contains(".exo"));
         assert!(refusal("noextension", b"nothing of the kind").contains("no extension"));

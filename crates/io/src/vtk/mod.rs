@@ -4,13 +4,13 @@
 //! indices ([`cells`]), grids in their pieces ([`grids`]) and arrays with names ([`named`]). What differs is how each finds them in its file.
 //! [`write_vtu`] writes unstructured grids as XML.
 
-mod cell_types;
-mod cells;
+pub(crate) mod cell_types;
+pub(crate) mod cells;
 mod grids;
 mod join;
 mod legacy;
 pub(crate) mod named;
-mod scalars;
+pub(crate) mod scalars;
 mod tuples;
 mod write;
 mod xml;
