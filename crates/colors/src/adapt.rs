@@ -1,0 +1,146 @@
+//! Few control points for many pieces: straight lines in what a renderer mixes, judged in what an eye or a user sees.
+
+/// Half of one of the 255 steps of an 8-bit channel.
+pub const HALF_GRAY_LEVEL: f64 = 0.5 / 255.0;
+
+/// What smaller errors count as; there are then some ten thousand points to a map.
+const SMALLEST_ERROR: f64 = 1e-5;
+
+/// The share of the error that goes to what lies between samples. The rest is for the lines.
+const BETWEEN_SAMPLES: f64 = 0.125;
+
+/// Halvings of a piece at most: a kink of any strength is then closer to a sample than 2⁻²⁰ of the piece.
+const DEEPEST: u32 = 20;
+
+/// Differences below this between the end of a piece and the beginning of the next are rounding, not a step: conversion to Lab and back is off
+/// by as much as 4e-4, but both sides are then off alike.
+const STEP: f64 = 1e-9;
+
+/// A stretch over which a function has no step.
+pub(crate) struct Piece<'a, const N: usize> {
+    pub(crate) start: f64,
+    /// Above `start`.
+    pub(crate) end: f64,
+    /// The encoded values at a share of the stretch, 0 and 1 included.
+    pub(crate) at: Box<dyn Fn(f64) -> [f64; N] + 'a>,
+}
+
+/// Between the values that are judged, channel by channel, and those that are mixed; monotone, and each undoes the other.
+#[derive(Clone, Copy)]
+pub(crate) struct Encoding {
+    pub(crate) decode: fn(f64) -> f64,
+    pub(crate) encode: fn(f64) -> f64,
+}
+
+#[derive(Clone, Copy)]
+struct Sample<const N: usize> {
+    x: f64,
+    encoded: [f64; N],
+    mixed: [f64; N],
+}
+
+/// Points `(x, decoded values)`, ascending, of which the straight lines, encoded, are within `error` of the pieces. Two points at one place are
+/// a step.
+pub(crate) fn control_points<const N: usize>(
+    pieces: &[Piece<'_, N>],
+    encoding: Encoding,
+    error: f64,
+) -> Vec<(f64, [f64; N])> {
+    let error = if error > SMALLEST_ERROR { error } else { SMALLEST_ERROR };
+    let mut points = Vec::new();
+    let mut run: Vec<Sample<N>> = Vec::new();
+    // Many pieces lie closer together than their mixtures bend; few may have kinks inside, which a look at three places could miss.
+    let least_depth = if pieces.len() > 64 { 1 } else { 4 };
+    for piece in pieces {
+        let sample = |share: f64| {
+            let encoded = (piece.at)(share);
+            let x = if share >= 1.0 { piece.end } else { piece.start + share * (piece.end - piece.start) };
+            Sample { x, encoded, mixed: encoded.map(encoding.decode) }
+        };
+        let first = sample(0.0);
+        match run.last() {
+            Some(last) if apart(last.encoded, first.encoded) <= STEP => {}
+            Some(_) => {
+                join(&run, encoding, error * (1.0 - BETWEEN_SAMPLES), &mut points);
+                run = vec![first];
+            }
+            None => run.push(first),
+        }
+        halve(
+            &sample,
+            [(0.0, first), (1.0, sample(1.0))],
+            0,
+            least_depth,
+            (encoding, error * BETWEEN_SAMPLES),
+            &mut run,
+        );
+    }
+    join(&run, encoding, error * (1.0 - BETWEEN_SAMPLES), &mut points);
+    points
+}
+
+/// Samples after the first of two, up to the second, so close that lines between them are near enough.
+fn halve<const N: usize>(
+    sample: &dyn Fn(f64) -> Sample<N>,
+    [from, to]: [(f64, Sample<N>); 2],
+    depth: u32,
+    least_depth: u32,
+    judge: (Encoding, f64),
+    run: &mut Vec<Sample<N>>,
+) {
+    let at = |share: f64| from.0 + share * (to.0 - from.0);
+    let middle = sample(at(0.5));
+    let (encoding, error) = judge;
+    let near = |sample: &Sample<N>| deviation(&from.1, &to.1, sample, encoding) <= error;
+    let done =
+        depth >= DEEPEST || depth >= least_depth && near(&middle) && near(&sample(at(0.25))) && near(&sample(at(0.75)));
+    if done {
+        run.push(to.1);
+    } else {
+        let middle = (at(0.5), middle);
+        halve(sample, [from, middle], depth + 1, least_depth, judge, run);
+        halve(sample, [middle, to], depth + 1, least_depth, judge, run);
+    }
+}
+
+/// From each point as far as a straight line goes.
+fn join<const N: usize>(run: &[Sample<N>], encoding: Encoding, error: f64, points: &mut Vec<(f64, [f64; N])>) {
+    let Some(first) = run.first() else { return };
+    points.push((first.x, first.mixed));
+    let reaches = |from: usize, to: usize| {
+        let (Some(a), Some(b), Some(between)) = (run.get(from), run.get(to), run.get(from + 1..to)) else {
+            return false;
+        };
+        between.iter().all(|sample| deviation(a, b, sample, encoding) <= error)
+    };
+    let mut from = 0;
+    while from + 1 < run.len() {
+        // Ever longer leaps, then halves of the last: as much work as the line is long, but for a logarithm.
+        let (mut near, mut leap) = (from + 1, 2);
+        while reaches(from, from + leap) {
+            near = from + leap;
+            leap *= 2;
+        }
+        let mut far = (from + leap).min(run.len());
+        while far > near + 1 {
+            let middle = near.midpoint(far);
+            if reaches(from, middle) { near = middle } else { far = middle }
+        }
+        from = near;
+        if let Some(sample) = run.get(from) {
+            points.push((sample.x, sample.mixed));
+        }
+    }
+}
+
+/// How far the line between two samples, encoded, is from one between them.
+fn deviation<const N: usize>(from: &Sample<N>, to: &Sample<N>, sample: &Sample<N>, encoding: Encoding) -> f64 {
+    let width = to.x - from.x;
+    let share = if width > 0.0 { (sample.x - from.x) / width } else { 0.0 };
+    let line = core::array::from_fn(|i| (encoding.encode)((1.0 - share) * from.mixed[i] + share * to.mixed[i]));
+    apart(line, sample.encoded)
+}
+
+fn apart<const N: usize>(a: [f64; N], b: [f64; N]) -> f64 {
+    a.into_iter().zip(b).fold(0.0, |largest: f64, (a, b)| largest.max((a - b).abs()))
+}
