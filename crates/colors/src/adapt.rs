@@ -12,6 +12,11 @@ const BETWEEN_SAMPLES: f64 = 0.125;
 /// Halvings of a piece at most: a kink of any strength is then closer to a sample than 2⁻²⁰ of the piece.
 const DEEPEST: u32 = 20;
 
+/// Pieces up to which no line goes across the end of one: points that somebody set are then kept as they are. Many pieces are a table, whose
+/// entries mean nothing by themselves; they lie closer together than their mixtures bend, whereas few may have kinks inside, which a look at
+/// three places could miss.
+const FEW: usize = 64;
+
 /// Differences below this between the end of a piece and the beginning of the next are rounding, not a step: conversion to Lab and back is off
 /// by as much as 4e-4, but both sides are then off alike.
 const STEP: f64 = 1e-9;
@@ -47,35 +52,32 @@ pub(crate) fn control_points<const N: usize>(
     error: f64,
 ) -> Vec<(f64, [f64; N])> {
     let error = if error > SMALLEST_ERROR { error } else { SMALLEST_ERROR };
+    let (between, along) = (error * BETWEEN_SAMPLES, error * (1.0 - BETWEEN_SAMPLES));
+    let few = pieces.len() <= FEW;
+    let least_depth = if few { 4 } else { 1 };
     let mut points = Vec::new();
     let mut run: Vec<Sample<N>> = Vec::new();
-    // Many pieces lie closer together than their mixtures bend; few may have kinks inside, which a look at three places could miss.
-    let least_depth = if pieces.len() > 64 { 1 } else { 4 };
     for piece in pieces {
         let sample = |share: f64| {
-            let encoded = (piece.at)(share);
+            let mixed = (piece.at)(share).map(encoding.decode);
             let x = if share >= 1.0 { piece.end } else { piece.start + share * (piece.end - piece.start) };
-            Sample { x, encoded, mixed: encoded.map(encoding.decode) }
+            // What cannot be decoded to the full, such as full opacity, is judged as far as it can: else no line would do.
+            Sample { x, encoded: mixed.map(encoding.encode), mixed }
         };
         let first = sample(0.0);
-        match run.last() {
-            Some(last) if apart(last.encoded, first.encoded) <= STEP => {}
-            Some(_) => {
-                join(&run, encoding, error * (1.0 - BETWEEN_SAMPLES), &mut points);
-                run = vec![first];
-            }
-            None => run.push(first),
+        let continues = run.last().is_some_and(|last| apart(last.encoded, first.encoded) <= STEP);
+        if few || !continues {
+            join(&run, encoding, along, &mut points);
+            run.clear();
+            run.push(first);
         }
-        halve(
-            &sample,
-            [(0.0, first), (1.0, sample(1.0))],
-            0,
-            least_depth,
-            (encoding, error * BETWEEN_SAMPLES),
-            &mut run,
-        );
+        halve(&sample, [(0.0, first), (1.0, sample(1.0))], 0, least_depth, (encoding, between), &mut run);
+        if few && continues {
+            // Where the piece before has ended, there is a point already.
+            points.pop();
+        }
     }
-    join(&run, encoding, error * (1.0 - BETWEEN_SAMPLES), &mut points);
+    join(&run, encoding, along, &mut points);
     points
 }
 
@@ -91,16 +93,19 @@ fn halve<const N: usize>(
     let at = |share: f64| from.0 + share * (to.0 - from.0);
     let middle = sample(at(0.5));
     let (encoding, error) = judge;
-    let near = |sample: &Sample<N>| deviation(&from.1, &to.1, sample, encoding) <= error;
-    let done =
-        depth >= DEEPEST || depth >= least_depth && near(&middle) && near(&sample(at(0.25))) && near(&sample(at(0.75)));
-    if done {
-        run.push(to.1);
-    } else {
-        let middle = (at(0.5), middle);
-        halve(sample, [from, middle], depth + 1, least_depth, judge, run);
-        halve(sample, [middle, to], depth + 1, least_depth, judge, run);
+    let near = |share: f64, sample: &Sample<N>| deviation([&from.1, &to.1], share, sample, encoding) <= error;
+    if depth >= least_depth && near(0.5, &middle) || depth >= DEEPEST {
+        let quarters = [sample(at(0.25)), middle, sample(at(0.75))];
+        if depth >= DEEPEST || near(0.25, &quarters[0]) && near(0.75, &quarters[2]) {
+            // The quarters too: a longer line that is near both ends need not be near between them where the encoding bends.
+            run.extend(quarters);
+            run.push(to.1);
+            return;
+        }
     }
+    let middle = (at(0.5), middle);
+    halve(sample, [from, middle], depth + 1, least_depth, judge, run);
+    halve(sample, [middle, to], depth + 1, least_depth, judge, run);
 }
 
 /// From each point as far as a straight line goes.
@@ -111,7 +116,9 @@ fn join<const N: usize>(run: &[Sample<N>], encoding: Encoding, error: f64, point
         let (Some(a), Some(b), Some(between)) = (run.get(from), run.get(to), run.get(from + 1..to)) else {
             return false;
         };
-        between.iter().all(|sample| deviation(a, b, sample, encoding) <= error)
+        let width = b.x - a.x;
+        let share = |sample: &Sample<N>| if width > 0.0 { (sample.x - a.x) / width } else { 0.0 };
+        between.iter().all(|sample| deviation([a, b], share(sample), sample, encoding) <= error)
     };
     let mut from = 0;
     while from + 1 < run.len() {
@@ -133,10 +140,8 @@ fn join<const N: usize>(run: &[Sample<N>], encoding: Encoding, error: f64, point
     }
 }
 
-/// How far the line between two samples, encoded, is from one between them.
-fn deviation<const N: usize>(from: &Sample<N>, to: &Sample<N>, sample: &Sample<N>, encoding: Encoding) -> f64 {
-    let width = to.x - from.x;
-    let share = if width > 0.0 { (sample.x - from.x) / width } else { 0.0 };
+/// How far the line between two samples, encoded, is at a share of it from a third one.
+fn deviation<const N: usize>([from, to]: [&Sample<N>; 2], share: f64, sample: &Sample<N>, encoding: Encoding) -> f64 {
     let line = core::array::from_fn(|i| (encoding.encode)((1.0 - share) * from.mixed[i] + share * to.mixed[i]));
     apart(line, sample.encoded)
 }

@@ -190,9 +190,12 @@ fn differ(a: [f64; 3], b: [f64; 3]) -> bool {
     a.into_iter().zip(b).any(|(a, b)| (a - b).abs() > 1e-3)
 }
 
-/// The scalar at a share of a range, within it.
+/// The scalar at a share of a range, within it; it never falls as the share grows.
 pub(crate) fn scalar_at(lo: f64, hi: f64, x: f64) -> f64 {
-    if x >= 1.0 { hi } else { (lo * (1.0 - x) + hi * x).max(lo).min(hi) }
+    let width = hi - lo;
+    // Of a range wider than the largest float, by halves.
+    let scalar = if width.is_finite() { lo + x * width } else { 2.0 * (0.5 * lo + x * (0.5 * hi - 0.5 * lo)) };
+    if x >= 1.0 { hi } else { scalar.max(lo).min(hi) }
 }
 
 fn pieces(space: ColorSpace, points: &[ColorPoint]) -> Vec<(f64, Stretch)> {

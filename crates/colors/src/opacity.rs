@@ -5,11 +5,12 @@ use core::str::FromStr;
 use crate::adapt::{Encoding, Piece, control_points};
 use crate::check::{Origin, normalize};
 use crate::map::scalar_at;
-use crate::sharpness::{Half, halves};
+use crate::sharpness::{Half, halves, is_straight};
 use crate::{ColorError, opacity_names};
 
-/// The optical depth that stands for full opacity, which no finite one has: 1 − 10⁻⁷ of the light is taken.
-const FULL_DEPTH: f64 = 16.0;
+/// The optical depth that stands for full opacity, which no finite one has: all but a twelfth of a gray level is taken. A larger one would make
+/// steeper extinctions for what cannot be seen.
+const FULL_DEPTH: f64 = 8.0;
 
 /// Where an opacity is how large, and how it goes on.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -36,7 +37,7 @@ impl OpacityPoint {
 #[non_exhaustive]
 pub enum OpacityUnit {
     /// The share of light that a length takes: the extinction is −ln(1 − opacity) over the length. VTK's mappers for images take its unit distance so.
-    /// Full opacity stands for an optical depth of 16.
+    /// Full opacity stands for an optical depth of 8.
     OverLength(f64),
     /// The extinction in units of one over a length: opacity over the length. VTK's mappers for unstructured grids take its unit distance so.
     ExtinctionPerLength(f64),
@@ -55,7 +56,9 @@ pub struct Opacity {
 /// Opacity over one piece, by the share of it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Curve {
-    /// Between two points.
+    /// Straight from one value to another.
+    Line([f64; 2]),
+    /// Half of another way between two points.
     Half(Half),
     /// From the first value to the second by equal factors, neither 0.
     Geometric([f64; 2]),
@@ -66,6 +69,7 @@ pub(crate) enum Curve {
 impl Curve {
     fn at(self, share: f64) -> f64 {
         match self {
+            Self::Line([from, to]) => (1.0 - share) * from + share * to,
             Self::Half(half) => half.at(share),
             Self::Geometric([from, to]) => from.powf(1.0 - share) * to.powf(share),
             Self::Sigmoid([from, to]) => 1.0 / (1.0 + (-((1.0 - share) * from + share * to)).exp()),
@@ -74,6 +78,7 @@ impl Curve {
 
     fn reversed(self) -> Self {
         match self {
+            Self::Line([from, to]) => Self::Line([to, from]),
             Self::Half(half) => Self::Half(half.reversed()),
             Self::Geometric([from, to]) => Self::Geometric([to, from]),
             Self::Sigmoid([from, to]) => Self::Sigmoid([to, from]),
@@ -113,6 +118,12 @@ impl Opacity {
         let mut pieces = Vec::with_capacity(2 * points.len());
         for pair in points.windows(2) {
             let [(from, (first, midpoint, sharpness)), (to, (second, ..))] = *pair else { continue };
+            if midpoint == 0.5 && is_straight(sharpness) {
+                if to > from {
+                    pieces.push((to, from, Curve::Line([first, second])));
+                }
+                continue;
+            }
             let mut start = from;
             for (share, half) in halves([first, second], midpoint, sharpness) {
                 let end = if share >= 1.0 { to } else { from + share * (to - from) };
@@ -124,8 +135,7 @@ impl Opacity {
             }
         }
         if let (true, Some((_, (opacity, ..)))) = (pieces.is_empty(), points.first()) {
-            let constant = Half { ends: [*opacity; 2], sharpness: 0.0, second: false };
-            pieces.push((1.0, 0.0, Curve::Half(constant)));
+            pieces.push((1.0, 0.0, Curve::Line([*opacity; 2])));
         }
         Ok(Self { name: "points".to_owned(), pieces })
     }
@@ -148,7 +158,7 @@ impl Opacity {
 
     /// The opacity at a place from 0 to 1; beyond the ends, that at the end. NaN gives the opacity at 0.
     pub fn at(&self, x: f64) -> f64 {
-        let x = x.max(0.0).min(1.0);
+        let x = if x.is_nan() { 0.0 } else { x.clamp(0.0, 1.0) };
         // The last piece has its end, too.
         let index = self.pieces.partition_point(|(end, ..)| *end <= x).min(self.pieces.len().saturating_sub(1));
         let Some((end, start, curve)) = self.pieces.get(index) else { return 0.0 };

@@ -45,7 +45,7 @@ fn all_names_are_within_their_error() {
 #[test]
 fn points_of_all_shapes_are_within_their_error() {
     let mut random = fastrand::Rng::with_seed(3);
-    for _ in 0..200 {
+    for _ in 0..400 {
         let points: Vec<_> = (0..random.usize(1..6))
             .map(|i| OpacityPoint {
                 x: f64::from(random.i32(-2..3)) + if i == 0 { -9.0 } else { 0.0 },
@@ -63,7 +63,7 @@ fn points_of_all_shapes_are_within_their_error() {
 #[test]
 fn full_opacity_has_a_finite_extinction() {
     let constant = Opacity::new(&[OpacityPoint::straight(7.0, 1.0)]).unwrap();
-    assert_eq!(constant.extinction_points(0.0, 1.0, OpacityUnit::OverLength(2.0), 0.01), [[0.0, 8.0], [1.0, 8.0]]);
+    assert_eq!(constant.extinction_points(0.0, 1.0, OpacityUnit::OverLength(2.0), 0.01), [[0.0, 4.0], [1.0, 4.0]]);
     assert_eq!(constant.extinction_points(3.0, 3.0, OpacityUnit::ExtinctionPerLength(2.0), 0.01), [[3.0, 0.5]]);
     let half = Opacity::new(&[OpacityPoint::straight(0.0, 0.5)]).unwrap();
     let [_, extinction] = half.extinction_points(0.0, 1.0, OpacityUnit::OverLength(1.0), 0.01)[0];
@@ -92,7 +92,7 @@ fn texts() {
     assert_eq!(parse("Linear_R").unwrap().at(0.25), 0.75);
     assert_eq!(parse("0, 0.2 .9").unwrap().points(0.0, 1.0, 0.01), [[0.0, 0.0], [0.5, 0.2], [1.0, 0.9]]);
     assert_eq!(parse("10:0;30:.5 20:1").unwrap().points(0.0, 1.0, 0.01), [[0.0, 0.0], [0.5, 1.0], [1.0, 0.5]]);
-    assert_eq!(parse("0.3").unwrap().at(0.9), 0.3);
+    assert!((parse("0.3").unwrap().at(0.9) - 0.3).abs() < 1e-15);
     let message = |text: &str| parse(text).unwrap_err().to_string();
     for (text, part) in [
         ("", "no opacity is called"),
@@ -103,7 +103,7 @@ fn texts() {
         ("0, 200", "divided by 255"),
         ("0, -1", "-1, not between 0 and 1"),
         ("1:0 1:1", "lie at 1"),
-        ("inf:0", "not"),
+        ("inf:0", "no opacity is called"),
         ("0:nan", "NaN"),
         ("1e999:0, 0:1", "not a finite number"),
         ("\u{1b}[1m", "\u{fffd}[1m"),

@@ -17,6 +17,11 @@ pub(crate) struct Half {
     pub(crate) second: bool,
 }
 
+/// Whether a way is straight but for its midpoint.
+pub(crate) fn is_straight(sharpness: f64) -> bool {
+    sharpness < STRAIGHT
+}
+
 /// The halves of a way, and the share at which they meet.
 ///
 /// - `midpoint`: where the value is halfway, as a share of the way
@@ -30,7 +35,7 @@ impl Half {
     pub(crate) fn at(self, share: f64) -> f64 {
         let [from, to] = self.ends;
         let share = 0.5 * share + if self.second { 0.5 } else { 0.0 };
-        if self.sharpness < STRAIGHT {
+        if is_straight(self.sharpness) {
             return (1.0 - share) * from + share * to;
         }
         // Drawn toward the nearer end, then a cubic between the ends that is flatter there the sharper the way is.
