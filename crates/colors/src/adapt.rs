@@ -12,12 +12,18 @@ const BETWEEN_SAMPLES: f64 = 0.125;
 /// Halvings of a piece at most: a kink of any strength is then closer to a sample than 2⁻²⁰ of the piece.
 const DEEPEST: u32 = 20;
 
-/// Pieces up to which no line goes across the end of one: points that somebody set are then kept as they are. Many pieces are a table, whose
-/// entries mean nothing by themselves; they lie closer together than their mixtures bend, whereas few may have kinks inside, which a look at
+/// Pieces up to which no line goes across the end of one: points that somebody set are then kept as they are. Many pieces are a table,
+/// whose
+/// entries mean nothing by themselves; they lie closer together than their mixtures bend, whereas few may have kinks inside, which a look
+/// at
 /// three places could miss.
 const FEW: usize = 64;
 
-/// Differences below this between the end of a piece and the beginning of the next are rounding, not a step: conversion to Lab and back is off
+/// Samples after which lines end at the next end of a piece, so that they need no memory to speak of.
+const LONGEST: usize = 1 << 14;
+
+/// Differences below this between the end of a piece and the beginning of the next are rounding, not a step: conversion to Lab and back is
+/// off
 /// by as much as 4e-4, but both sides are then off alike.
 const STEP: f64 = 1e-9;
 
@@ -44,7 +50,8 @@ struct Sample<const N: usize> {
     mixed: [f64; N],
 }
 
-/// Points `(x, decoded values)`, ascending, of which the straight lines, encoded, are within `error` of the pieces. Two points at one place are
+/// Points `(x, decoded values)`, ascending, of which the straight lines, encoded, are within `error` of the pieces. Two points at one place
+/// are
 /// a step.
 pub(crate) fn control_points<const N: usize>(
     pieces: &[Piece<'_, N>],
@@ -74,6 +81,12 @@ pub(crate) fn control_points<const N: usize>(
         halve(&sample, [(0.0, first), (1.0, sample(1.0))], 0, least_depth, (encoding, between), &mut run);
         if few && continues {
             // Where the piece before has ended, there is a point already.
+            points.pop();
+        }
+        if run.len() > LONGEST {
+            // The next run begins with the point at which this one ends.
+            join(&run, encoding, along, &mut points);
+            run.drain(..run.len() - 1);
             points.pop();
         }
     }

@@ -40,7 +40,8 @@ struct Stretch {
 impl ColorMap {
     /// The map that has a name, with `_r` at its end backwards.
     ///
-    /// matplotlib's names and ParaView's are known ([`all_names`](crate::all_names)). A name as it is written counts before one that differs in
+    /// matplotlib's names and ParaView's are known ([`all_names`](crate::all_names)). A name as it is written counts before one that
+    /// differs in
     /// case, and matplotlib's before ParaView's; `matplotlib:NAME` and `paraview:NAME` say which is meant.
     ///
     /// # Errors
@@ -54,7 +55,8 @@ impl ColorMap {
     ///
     /// # Errors
     ///
-    /// No point, several points that all lie at one place, a number that is not finite, a channel outside of 0 to 1 (by more than a thousandth,
+    /// No point, several points that all lie at one place, a number that is not finite, a channel outside of 0 to 1 (by more than a
+    /// thousandth,
     /// else it is clamped); more than 256 points in [`ColorSpace::LabCiede2000`], whose paths take time.
     pub fn new(name: &str, space: ColorSpace, points: &[ColorPoint]) -> Result<Self, ColorError> {
         Self::of_points(Origin { file: "color map", preset: name }, space, points)
@@ -143,10 +145,12 @@ impl ColorMap {
     /// Control points `[scalar, red, green, blue]` in linear light that stand for the map over a range of a field.
     ///
     /// - `lo`, `hi`: the scalars of 0 and 1, finite; where `lo` is above `hi`, the map runs backwards
-    /// - `error`: how far a color between the points may lie from the map's, in sRGB from 0 to 1; [`HALF_GRAY_LEVEL`](crate::HALF_GRAY_LEVEL)
+    /// - `error`: how far a color between the points may lie from the map's, in sRGB from 0 to 1;
+    ///   [`HALF_GRAY_LEVEL`](crate::HALF_GRAY_LEVEL)
     ///   cannot be seen. Not below 1e-5.
     ///
-    /// Scalars ascend; two equal ones are a step. Where `lo` is `hi`, it is one point with the color at 0.5. A straight line between two of the
+    /// Scalars ascend; two equal ones are a step. Where `lo` is `hi`, it is one point with the color at 0.5. A straight line between two of
+    /// the
     /// points, in linear light, encoded as sRGB, is within `error` of [`color_at`](Self::color_at) but at the steps themselves.
     pub fn linear_points(&self, lo: f64, hi: f64, error: f64) -> Vec<[f64; 4]> {
         if lo > hi {

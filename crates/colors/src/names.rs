@@ -14,7 +14,8 @@ const MATPLOTLIB_TABLES: &str = include_str!("../data/matplotlib-tables.txt");
 /// ParaView's maps of all ages, without those for categories and without those that are matplotlib's tables.
 const PARAVIEW: &str = include_str!("../data/paraview.json");
 
-/// ParaView's presets that are tables of matplotlib's: the name in ParaView, the table, the space. Names with parentheses are those of versions before 6.
+/// ParaView's presets that are tables of matplotlib's: the name in ParaView, the table, the space. Names with parentheses are those of
+/// versions before 6.
 const SHARED: [(&str, &str, ColorSpace); 10] = [
     ("Viridis (matplotlib)", "viridis", ColorSpace::Diverging),
     ("Inferno (matplotlib)", "inferno", ColorSpace::Diverging),
@@ -87,7 +88,8 @@ struct Entry {
     colors: Colors,
 }
 
-/// All maps that have names: matplotlib's, then ParaView's, each in alphabetical order whatever the case. Every one is also known with `_r`, backwards.
+/// All maps that have names: matplotlib's, then ParaView's, each in alphabetical order whatever the case. Every one is also known with
+/// `_r`, backwards.
 pub fn all_names() -> Vec<NamedMap> {
     entries().iter().map(|entry| entry.named).collect()
 }

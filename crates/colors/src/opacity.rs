@@ -8,7 +8,8 @@ use crate::map::scalar_at;
 use crate::sharpness::{Half, halves, is_straight};
 use crate::{ColorError, opacity_names};
 
-/// The optical depth that stands for full opacity, which no finite one has: all but a twelfth of a gray level is taken. A larger one would make
+/// The optical depth that stands for full opacity, which no finite one has: all but a twelfth of a gray level is taken. A larger one would
+/// make
 /// steeper extinctions for what cannot be seen.
 const FULL_DEPTH: f64 = 8.0;
 
@@ -36,10 +37,12 @@ impl OpacityPoint {
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum OpacityUnit {
-    /// The share of light that a length takes: the extinction is −ln(1 − opacity) over the length. VTK's mappers for images take its unit distance so.
+    /// The share of light that a length takes: the extinction is −ln(1 − opacity) over the length. VTK's mappers for images take its unit
+    /// distance so.
     /// Full opacity stands for an optical depth of 8.
     OverLength(f64),
-    /// The extinction in units of one over a length: opacity over the length. VTK's mappers for unstructured grids take its unit distance so.
+    /// The extinction in units of one over a length: opacity over the length. VTK's mappers for unstructured grids take its unit distance
+    /// so.
     ExtinctionPerLength(f64),
 }
 
@@ -188,7 +191,8 @@ impl Opacity {
         self.control_points([lo, hi], error, Encoding { decode: straight, encode: straight }, 1.0)
     }
 
-    /// Control points `[scalar, extinction]`, extinction in one over the mesh's unit of length, that stand for the curve over a range of a field.
+    /// Control points `[scalar, extinction]`, extinction in one over the mesh's unit of length, that stand for the curve over a range of a
+    /// field.
     ///
     /// - `lo`, `hi`, `error`: as in [`Opacity::points`]
     /// - the unit's length: finite, above 0
@@ -234,7 +238,8 @@ fn opacity_of_depth(depth: f64) -> f64 {
     -(-depth).exp_m1()
 }
 
-/// A name, evenly spaced opacities (`0, 0.2, 0.9`), or opacities at places (`0:0, 0.3:0.9, 1:0`); commas, semicolons or spaces between them.
+/// A name, evenly spaced opacities (`0, 0.2, 0.9`), or opacities at places (`0:0, 0.3:0.9, 1:0`); commas, semicolons or spaces between
+/// them.
 impl FromStr for Opacity {
     type Err = ColorError;
 

@@ -87,7 +87,8 @@ impl Preset {
     ///
     /// # Errors
     ///
-    /// Colors for categories alone, an unknown color space, points that are not in fours, and whatever [`ColorMap::new`] and [`Opacity::new`] refuse.
+    /// Colors for categories alone, an unknown color space, points that are not in fours, and whatever [`ColorMap::new`] and
+    /// [`Opacity::new`] refuse.
     pub(crate) fn map(&self, file: &str) -> Result<(ColorMap, Option<String>), ColorError> {
         let origin = Origin { file, preset: self.name() };
         let Some(numbers) = &self.rgb_points else {

@@ -252,11 +252,11 @@ fn changed_anywhere() {
 
 #[test]
 fn large_files_are_linear() {
-    let numbers: Vec<_> = (0..100_000).map(|i| format!("{i},{},0.5,0", f64::from(i % 2))).collect();
+    let numbers: Vec<_> = (0..20_000).map(|i| format!("{i},{},0.5,0", f64::from(i % 2))).collect();
     let map = read(&format!(r#"{{"ColorSpace": "Lab", "RGBPoints": [{}]}}"#, numbers.join(","))).choose(None).unwrap();
-    assert_eq!(map.points().len(), 100_000);
+    assert_eq!(map.points().len(), 20_000);
     // Every one of them is a turn.
-    assert!(map.linear_points(0.0, 1.0, 0.001).len() >= 100_000);
+    assert!(map.linear_points(0.0, 1.0, 0.01).len() >= 20_000);
     assert!(
         message(&format!(r#"{{"ColorSpace": "Lab/CIEDE2000", "RGBPoints": [{}]}}"#, numbers.join(",")))
             .contains("more than 256")

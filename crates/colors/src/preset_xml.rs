@@ -1,6 +1,7 @@
 //! Presets as ParaView saved them before version 4.4, and as many collections of color maps still have them: `ColorMap` elements in XML.
 //!
-//! Elements are pulled one after another and nothing recurses. Entities beyond those of XML itself are not expanded, and no other file is opened.
+//! Elements are pulled one after another and nothing recurses. Entities beyond those of XML itself are not expanded, and no other file is
+//! opened.
 
 use quick_xml::XmlVersion;
 use quick_xml::events::{BytesStart, Event};

@@ -24,7 +24,8 @@ pub enum ColorSpace {
     /// Magnitude, saturation and hue, with white between two hues that are far apart; `Diverging`. Source: [Moreland 2009].
     Diverging,
     /// Along the shortest path between the colors by the color difference CIEDE2000, on a grid of 17 steps a channel;
-    /// `Lab/CIEDE2000`. As in ParaView, the colors of the points are first moved to the grid, by up to 8 gray levels a channel; what ParaView then
+    /// `Lab/CIEDE2000`. As in ParaView, the colors of the points are first moved to the grid, by up to 8 gray levels a channel; what
+    /// ParaView then
     /// rounds to 8 bits is not rounded here.
     LabCiede2000,
     /// A perspective image of XYZ in which equal steps look equal; `Prolab`. Source: [Konovalenko 2021].
