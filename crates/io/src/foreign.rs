@@ -13,7 +13,6 @@ struct Foreign {
     remedy: &'static str,
 }
 
-const CONVERT: &str = "ParaView (Save Data) or `meshio convert` can turn it into a .vtu file";
 const NOT_A_MESH: &str = "name a file that holds a mesh";
 const UNPACK: &str = "unpack it and name the file inside";
 
