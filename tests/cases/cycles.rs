@@ -5,8 +5,8 @@ use std::f64::consts::TAU;
 use glam::DVec3;
 use tetrascope::mesh::TetMesh;
 use tetrascope::{
-    Backend, Camera, CpuRenderer, CycleRemedy, OpticalModel, OrderMethod, Plan, Projection, Silent, TransferFunction,
-    View, Volume, reference,
+    Backend, Camera, CpuRenderer, CycleRemedy, OpticalModel, OrderMethod, Plan, Projection, ReadOptions, Silent,
+    TransferFunction, View, Volume, reference,
 };
 use tetrascope_tests::compare::difference;
 use tetrascope_tests::shared;
@@ -75,7 +75,7 @@ fn rings_of_real_files_are_found_and_mended() {
         ("vtu/cycle_3_sticks.vtu", 3, DVec3::new(-0.5, 0.0, 0.0), 5.0),
         ("vtu/cycle_twisted_column_18.vtu", 12, DVec3::new(0.1, 0.2, 0.0), 3.0),
     ] {
-        let volume = Volume::load(&folder.join("data").join(file), None).unwrap();
+        let volume = Volume::load(&folder.join("data").join(file), &ReadOptions::default()).unwrap();
         let field = volume.field(Some("s")).unwrap();
         for projection in [Projection::Perspective { fov_y: height / 9.0 }, Projection::Orthographic { height }] {
             let camera = Camera { eye: middle + DVec3::Z * 9.0, target: middle, up: DVec3::Y, projection };

@@ -6,8 +6,8 @@ use std::path::Path;
 use proptest::prelude::*;
 use rayon::prelude::*;
 use tetrascope::{
-    Choice, ErrorFigures, Integration, Interpolation, LinearImage, OrderMethod, Plan, SceneFile, Silent, TableSettings,
-    Volume, VolumeField, resolve_path,
+    Choice, ErrorFigures, Integration, Interpolation, LinearImage, OrderMethod, Plan, ReadOptions, SceneFile, Silent,
+    TableSettings, Volume, VolumeField, resolve_path,
 };
 use tetrascope_tests::scenes::random_scene;
 use tetrascope_tests::shared;
@@ -155,7 +155,11 @@ fn read(folder: &Path, name: &str) -> (Volume, SceneFile) {
     let path = folder.join(name).with_extension("toml");
     let scene = SceneFile::parse(&std::fs::read_to_string(&path).unwrap(), &path).unwrap();
     let solution = scene.mesh.solution.as_ref().map(|path| resolve_path(folder, path));
-    (Volume::load(&resolve_path(folder, &scene.mesh.path), solution.as_deref()).unwrap(), scene)
+    (
+        Volume::load(&resolve_path(folder, &scene.mesh.path), &ReadOptions::with_solution(solution.as_deref()))
+            .unwrap(),
+        scene,
+    )
 }
 
 /// What `auto` took is in the scene that is written, and gives the same picture.

@@ -1,6 +1,6 @@
 //! Real meshes: what is in them, and both renderers on them.
 
-use tetrascope::{Backend, Choice, Picture, SceneFile, Silent, Volume, render_volume};
+use tetrascope::{Backend, Choice, Picture, ReadOptions, SceneFile, Silent, Volume, render_volume};
 use tetrascope_tests::pictures::{Worst, largest, mean_opacity};
 use tetrascope_tests::shared;
 
@@ -57,7 +57,7 @@ fn real_meshes_look_the_same_to_both_renderers() {
     let mut worst = Worst::new("real meshes, opacity of fast against reference", 2e-5);
     for case in CASES {
         let solution = case.solution.map(|s| data.join(s));
-        let volume = Volume::load(&data.join(case.grid), solution.as_deref()).unwrap();
+        let volume = Volume::load(&data.join(case.grid), &ReadOptions::with_solution(solution.as_deref())).unwrap();
         let counts = &volume.decomposition.counts;
         assert_eq!(volume.dataset.points.len(), case.points, "{}", case.grid);
         assert_eq!((counts.tetrahedra, counts.no_volume), (case.tetrahedra, case.no_volume), "{}", case.grid);

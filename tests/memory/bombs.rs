@@ -5,7 +5,7 @@ use std::path::Path;
 
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
-use tetrascope::{IoError, read_exr, read_mesh, read_picture, read_png, readers};
+use tetrascope::{IoError, ReadOptions, read_exr, read_mesh, read_picture, read_png, readers};
 use tetrascope_tests::fuzz::corpus::{Compressor, Encoding, Values, VtuWriter, exr_header, png_chunks};
 use tetrascope_tests::fuzz::{Target, most_allocated};
 
@@ -46,7 +46,7 @@ fn of_any_kind(path: &Path) -> Result<(), String> {
     let result: Result<(), IoError> = match extension {
         "png" => read_picture(path).and(read_png(path)).map(drop),
         "exr" => read_picture(path).and(read_exr(path)).map(drop),
-        _ => read_mesh(path, None).map(drop),
+        _ => read_mesh(path, &ReadOptions::default()).map(drop),
     };
     result.map_err(|error| error.to_string())
 }
@@ -337,7 +337,8 @@ fn every_reader_stands_every_beginning() {
     for bytes in beginnings {
         let (allocated, ()) = counted(|| {
             for reader in readers() {
-                let source = tetrascope::io::Source { path: "beginning".into(), bytes: bytes.to_vec(), solution: None };
+                let source =
+                    tetrascope::io::Source { path: "beginning".into(), bytes: bytes.to_vec(), ..Default::default() };
                 let error = reader.read(&source).unwrap_err().to_string();
                 assert!(error.contains("beginning"), "{}: {error}", reader.name());
             }

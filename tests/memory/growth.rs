@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use tetrascope::{SceneFile, read_heights, read_mesh, read_picture};
+use tetrascope::{ReadOptions, SceneFile, read_heights, read_mesh, read_picture};
 use tetrascope_tests::fuzz::corpus::{Compressor, png_chunks};
 
 use crate::{alone, counted};
@@ -21,7 +21,7 @@ fn read(name: &str, bytes: &[u8]) -> (usize, bool) {
         "png" | "exr" => read_picture(path).is_ok(),
         "heights" => read_heights(path).is_ok(),
         "toml" | "json" => SceneFile::parse(str::from_utf8(bytes).unwrap(), path).is_ok(),
-        _ => read_mesh(path, None).is_ok(),
+        _ => read_mesh(path, &ReadOptions::default()).is_ok(),
     };
     counted(|| of_any_kind(&path))
 }

@@ -1,6 +1,6 @@
 //! The files beside the repository.
 
-use tetrascope::{SceneFile, Volume, read_mesh};
+use tetrascope::{ReadOptions, SceneFile, Volume, read_mesh};
 use tetrascope_tests::shared;
 
 use crate::{alone, counted};
@@ -17,7 +17,8 @@ fn hostile_files_stay_below_256_mib() {
         let path = entry.unwrap().path();
         let solution = path.with_extension("q");
         let is_grid = path.extension().is_some_and(|e| e == "xyz") && solution.is_file();
-        let (bytes, result) = counted(|| read_mesh(&path, is_grid.then_some(solution.as_path())));
+        let (bytes, result) =
+            counted(|| read_mesh(&path, &ReadOptions::with_solution(is_grid.then_some(solution.as_path()))));
         println!("{}: {bytes} bytes, read: {}", path.display(), result.is_ok());
         assert!(bytes < MOST, "{}: {bytes}", path.display());
         if bytes > worst.0 {
@@ -44,7 +45,7 @@ fn real_files_are_within_the_limits() {
         for entry in std::fs::read_dir(folder.join("data").join(name)).unwrap() {
             let path = entry.unwrap().path();
             let length = std::fs::metadata(&path).unwrap().len();
-            let (bytes, result) = counted(|| read_mesh(&path, None));
+            let (bytes, result) = counted(|| read_mesh(&path, &ReadOptions::default()));
             if let Err(error) = &result {
                 assert!(!error.to_string().contains("limit"), "{error}");
             }

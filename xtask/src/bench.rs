@@ -21,7 +21,7 @@ use tetrascope::integrate::{Isosurface, Isosurfaces, Phong, SurfaceShading};
 use tetrascope::scene::{IsosurfaceMethod, IsosurfacePlan, Lighting, Mixing, defaults};
 use tetrascope::{
     Backend, Camera, Counts, CpuRenderer, Integration, Interpolation, OpticalModel, OrderMethod, Plan, Projection,
-    Silent, Stage, TransferFunction, View, Volume, VolumeField,
+    ReadOptions, Silent, Stage, TransferFunction, View, Volume, VolumeField,
 };
 
 use crate::Failure;
@@ -111,7 +111,7 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().map_err(|e| e.to_string())?;
     let volume = match args.mesh.as_slice() {
         [] => None,
-        [mesh, rest @ ..] => Some(Volume::load(mesh, rest.first().map(PathBuf::as_path))?),
+        [mesh, rest @ ..] => Some(Volume::load(mesh, &ReadOptions::with_solution(rest.first().map(PathBuf::as_path)))?),
     };
     if args.orders {
         let run = || orders::run(volume.as_ref(), &args.only, args.frames, args.step).map_err(|e| e.to_string());

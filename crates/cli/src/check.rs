@@ -6,8 +6,8 @@ use std::path::{Path, PathBuf};
 
 use serde_json::{Value, json};
 use tetrascope::{
-    Backend, Choice, CycleRemedy, OrderCheck, OrderMethod, PixelDifference, Plan, ProjectionName, SceneFile, Volume,
-    VolumeField, resolve_path, seen_pixels, write_png,
+    Backend, Choice, CycleRemedy, OrderCheck, OrderMethod, PixelDifference, Plan, ProjectionName, ReadOptions,
+    SceneFile, Volume, VolumeField, resolve_path, seen_pixels, write_png,
 };
 
 use crate::Failure;
@@ -53,7 +53,8 @@ fn check(args: &CheckArgs, bar: &Bar) -> Result<Value, Failure> {
 
     bar.step("reading and cutting into tetrahedra");
     let solution = scene.mesh.solution.as_ref().map(|path| resolve_path(&base_dir, path));
-    let volume = Volume::load(&resolve_path(&base_dir, &scene.mesh.path), solution.as_deref())?;
+    let volume =
+        Volume::load(&resolve_path(&base_dir, &scene.mesh.path), &ReadOptions::with_solution(solution.as_deref()))?;
     let field = volume.field(scene.mesh.field.as_deref())?;
     interrupt::go_on()?;
     bar.step("looking at the mesh");

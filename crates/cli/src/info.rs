@@ -5,7 +5,9 @@ use std::path::Path;
 
 use serde_json::{Value, json};
 use tetrascope::mesh::{FaceAdjacency, MeshReport, check};
-use tetrascope::{ArraySummary, CellKind, Cells, Dataset, Loaded, decompose, read_mesh, short, summarize_arrays};
+use tetrascope::{
+    ArraySummary, CellKind, Cells, Dataset, Loaded, ReadOptions, decompose, read_mesh, short, summarize_arrays,
+};
 
 use crate::Failure;
 use crate::args::InfoArgs;
@@ -15,7 +17,8 @@ pub(crate) fn run(args: &InfoArgs) -> Result<(), Failure> {
     let [path, rest @ ..] = args.input.as_slice() else {
         return Err(Failure::Usage("name a file".to_owned()));
     };
-    let loaded = read_mesh(path, rest.first().map(std::path::PathBuf::as_path)).map_err(tetrascope::Error::Io)?;
+    let loaded = read_mesh(path, &ReadOptions::with_solution(rest.first().map(std::path::PathBuf::as_path)))
+        .map_err(tetrascope::Error::Io)?;
     let arrays = summarize_arrays(&loaded.dataset);
     // What was read is worth telling even where nothing can be drawn.
     let report = decompose(&loaded.dataset)

@@ -3,7 +3,7 @@
 mod rows;
 
 use serde_json::{Value, json};
-use tetrascope::{Volume, foresee_blank, resolve_path};
+use tetrascope::{ReadOptions, Volume, foresee_blank, resolve_path};
 
 use crate::Failure;
 use crate::args::PlanArgs;
@@ -35,7 +35,8 @@ fn plan(args: &PlanArgs, bar: &Bar) -> Result<Said, Failure> {
     let threads = args.scene.threads.map(usize::from);
     bar.step("reading and cutting into tetrahedra");
     let solution = scene.mesh.solution.as_ref().map(|path| resolve_path(&base_dir, path));
-    let volume = Volume::load(&resolve_path(&base_dir, &scene.mesh.path), solution.as_deref())?;
+    let volume =
+        Volume::load(&resolve_path(&base_dir, &scene.mesh.path), &ReadOptions::with_solution(solution.as_deref()))?;
     interrupt::go_on()?;
     let field = volume.field(scene.mesh.field.as_deref())?;
     bar.step("choosing methods");

@@ -4,9 +4,9 @@ use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
 use tetrascope::{
-    CameraSection, Choice, Completed, ErrorFigures, GpuPath, IsosurfaceSection, Plan, ProjectionName, Rendered,
-    SceneFile, Volume, VolumeField, check_writable, explain_blank, is_blank, resolve_path, warn_of_non_finite,
-    write_image,
+    CameraSection, Choice, Completed, ErrorFigures, GpuPath, IsosurfaceSection, Plan, ProjectionName, ReadOptions,
+    Rendered, SceneFile, Volume, VolumeField, check_writable, explain_blank, is_blank, resolve_path,
+    warn_of_non_finite, write_image,
 };
 
 use crate::Failure;
@@ -85,7 +85,8 @@ impl Job<'_> {
         bar.step("reading and cutting into tetrahedra");
         let mesh = &self.scene.mesh;
         let solution = mesh.solution.as_ref().map(|path| resolve_path(&self.base_dir, path));
-        let volume = Volume::load(&resolve_path(&self.base_dir, &mesh.path), solution.as_deref())?;
+        let volume =
+            Volume::load(&resolve_path(&self.base_dir, &mesh.path), &ReadOptions::with_solution(solution.as_deref()))?;
         bar.clear();
         interrupt::go_on()?;
         report.volume(&volume);

@@ -4,7 +4,8 @@ use std::path::{Path, PathBuf};
 
 use serde_json::{Value, json};
 use tetrascope::{
-    Backend, Choice, Plan, SceneFile, Volume, VolumeField, check_writable, foresee_blank, make_folder, resolve_path,
+    Backend, Choice, Plan, ReadOptions, SceneFile, Volume, VolumeField, check_writable, foresee_blank, make_folder,
+    resolve_path,
 };
 use tetrascope_study::{Figure, Options, Outcome, Study, bytes_text, error_text, ms_text, percent_text};
 
@@ -61,7 +62,8 @@ fn study(args: &StudyArgs, bar: &Bar) -> Result<Study, Failure> {
 
     bar.step("reading and cutting into tetrahedra");
     let solution = scene.mesh.solution.as_ref().map(|path| resolve_path(&base_dir, path));
-    let volume = Volume::load(&resolve_path(&base_dir, &scene.mesh.path), solution.as_deref())?;
+    let volume =
+        Volume::load(&resolve_path(&base_dir, &scene.mesh.path), &ReadOptions::with_solution(solution.as_deref()))?;
     let field = volume.field(scene.mesh.field.as_deref())?;
     bar.clear();
     interrupt::go_on()?;

@@ -4,11 +4,16 @@ use std::fmt;
 
 /// Which byte of a number comes first.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum ByteOrder {
+pub enum ByteOrder {
     /// The least significant one, as on most machines of today.
     Little,
     /// The most significant one.
     Big,
+}
+
+impl ByteOrder {
+    /// That of the machine that this runs on.
+    pub(crate) const NATIVE: Self = if cfg!(target_endian = "big") { Self::Big } else { Self::Little };
 }
 
 impl fmt::Display for ByteOrder {

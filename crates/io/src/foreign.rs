@@ -13,31 +13,10 @@ struct Foreign {
     remedy: &'static str,
 }
 
-const CONVERT: &str = "ParaView (Save Data) or `meshio convert` can turn it into a .vtu file";
 const NOT_A_MESH: &str = "name a file that holds a mesh";
 const UNPACK: &str = "unpack it and name the file inside";
 
-/// Volumes on regular grids have no cells until someone makes them: ParaView's filter does.
-const TO_CELLS: &str = "ParaView can turn it into a .vtu file (filter Append Datasets, then Save Data)";
-
 const FOREIGN: &[Foreign] = &[
-    Foreign { name: "Gmsh", extensions: &["msh"], magic: &[b"$MeshFormat", b"$NOD"], remedy: CONVERT },
-    Foreign {
-        name: "Exodus",
-        extensions: &["e", "ex2", "exo", "exii", "gen"],
-        magic: &[b"CDF\x01", b"CDF\x02", b"CDF\x05", b"\x89HDF\r\n\x1a\n"],
-        remedy: CONVERT,
-    },
-    Foreign { name: "NRRD", extensions: &["nrrd", "nhdr"], magic: &[b"NRRD000"], remedy: TO_CELLS },
-    Foreign { name: "VTI (VTK image data)", extensions: &["vti"], magic: &[], remedy: TO_CELLS },
-    Foreign { name: "VTR (VTK rectilinear grid)", extensions: &["vtr"], magic: &[], remedy: TO_CELLS },
-    Foreign { name: "VTS (VTK structured grid)", extensions: &["vts"], magic: &[], remedy: TO_CELLS },
-    Foreign {
-        name: "VTK's parallel or composite XML",
-        extensions: &["pvtu", "pvti", "pvtr", "pvts", "vtm", "vtmb", "pvd"],
-        magic: &[],
-        remedy: "name one of its .vtu pieces, or merge them into one .vtu file with ParaView",
-    },
     Foreign {
         name: "a surface (it has no volume)",
         extensions: &["vtp", "stl", "ply", "obj"],
@@ -74,11 +53,7 @@ pub(crate) fn refuse_by_extension(path: &Path, readers: &[&dyn MeshReader]) -> I
             } else {
                 format!("this content, or the extension .{extension},")
             },
-            remedy: format!(
-                "{}; Gmsh (.msh), Exodus (.e, .ex2, .exo), NRRD and VTI, VTR, VTS are not read yet: ParaView or \
-                 meshio can convert them to .vtu",
-                formats_read(readers)
-            ),
+            remedy: format!("{}; ParaView or meshio can convert most others to .vtu", formats_read(readers)),
         },
     }
 }

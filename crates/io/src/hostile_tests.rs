@@ -9,7 +9,7 @@ use std::{
 
 use proptest::prelude::*;
 
-use crate::{Source, read_mesh, readers, shared::shared};
+use crate::{ReadOptions, Source, read_mesh, readers, shared::shared};
 
 /// Files of `data/hostile` whose description says that they are valid, less those whose remark is on another subject.
 fn valid_files() -> Option<Vec<String>> {
@@ -33,7 +33,7 @@ fn every_hostile_file_ends_in_a_dataset_or_an_error() {
     for path in paths {
         let name = path.file_name().unwrap().to_string_lossy().into_owned();
         let start = Instant::now();
-        let Ok(result) = catch_unwind(|| read_mesh(&path, None)) else {
+        let Ok(result) = catch_unwind(|| read_mesh(&path, &ReadOptions::default())) else {
             wrong.push(format!("{name}: panics"));
             continue;
         };
@@ -68,6 +68,8 @@ fn samples() -> Vec<Vec<u8>> {
         "data/hostile/no_arrays.vtu",
         "data/hostile/nan_inf_scalars_binary.vtu",
         "data/hostile/corrupt_zlib.vtu",
+        "data/gmsh/sfepy_msh_tetra.msh",
+        "data/hostile/huge_count.msh",
     ];
     let mut samples: Vec<_> = files.iter().filter_map(|f| shared(f)).map(|path| fs::read(path).unwrap()).collect();
     samples.push(b"2 2 2\n4*0.0 4*1.0\n2*0 2*1 2*0 2*1\n8*1.5D0\n".to_vec());
@@ -77,7 +79,7 @@ fn samples() -> Vec<Vec<u8>> {
 
 /// Runs every reader; whether it recognizes the bytes or not.
 fn read_by_all(bytes: Vec<u8>) {
-    let source = Source { path: PathBuf::from("damaged"), bytes, solution: None };
+    let source = Source { path: PathBuf::from("damaged"), bytes, ..Default::default() };
     for reader in readers() {
         let _ = reader.recognizes(&source.bytes);
         if let Err(error) = reader.read(&source) {

@@ -7,11 +7,12 @@
 //!
 //! ```no_run
 //! use std::path::Path;
-//! use tetrascope_io::{read_mesh, write_image};
+//! use tetrascope_io::{ReadOptions, read_mesh, write_image};
 //! use tetrascope_view::LinearImage;
 //!
 //! # fn main() -> Result<(), tetrascope_io::IoError> {
-//! let loaded = read_mesh(Path::new("bluntfinxyz.bin"), Some(Path::new("bluntfinq.bin")))?;
+//! let options = ReadOptions { solution: Some("bluntfinq.bin".into()), ..ReadOptions::default() };
+//! let loaded = read_mesh(Path::new("bluntfinxyz.bin"), &options)?;
 //! assert_eq!(loaded.dataset.points.len(), 40_960);
 //! assert_eq!(loaded.dataset.point_arrays[0].name, "Density");
 //! for warning in &loaded.warnings {
@@ -23,18 +24,29 @@
 //! ```
 //!
 //! This crate and the command line are the only ones that open files; neither prints here. Files are read whole into
-//! memory. Gmsh, Exodus and image-data formats are recognized and refused with a way to convert them.
+//! memory; of an OpenFOAM case, which is a folder, only those of the chosen time step.
 
+mod budget;
 mod bytes;
 mod error;
+mod exodus;
 mod foreign;
+mod gmsh;
+mod grid;
 mod heights;
+mod nrrd;
 mod open;
+mod openfoam;
 mod picture;
 mod plot3d;
+mod raw;
 mod read;
+mod sample;
+mod unpack;
 mod vtk;
+mod vtkhdf;
 
+pub use bytes::ByteOrder;
 pub use error::IoError;
 pub use heights::{read_heights, write_heights};
 pub use open::{file_length, read_mesh, readers};
@@ -42,7 +54,9 @@ pub use picture::{
     PictureFile, PngImage, check_writable, encode_png, end_writing, make_folder, read_exr, read_picture, read_png,
     write_bytes, write_exr, write_files, write_image, write_png,
 };
-pub use read::{Loaded, MeshReader, Source};
+pub use raw::RawVolume;
+pub use read::{Loaded, MeshReader, ReadOptions, Source, StepChoice};
+pub use sample::SampleType;
 pub use vtk::write_vtu;
 
 /// Compiles the example of the README.

@@ -3,26 +3,67 @@
 use std::path::Path;
 
 use crate::read::printable;
-use crate::{IoError, Loaded, MeshReader, Source, foreign, plot3d::PLOT3D, vtk};
+use crate::{
+    IoError, Loaded, MeshReader, RawVolume, ReadOptions, Source, exodus::EXODUS, foreign, gmsh::GMSH, nrrd::NRRD,
+    openfoam::OPENFOAM, plot3d::PLOT3D, raw::RAW, vtk, vtkhdf::VTKHDF,
+};
 
 /// All readers, in the order in which they are asked whether they recognize a file.
 ///
-/// PLOT3D is last: its files begin with nothing that tells them apart, so that it judges by whether all sizes fit.
+/// VTKHDF is asked before Exodus, which takes any file of HDF5; PLOT3D is last: its files begin with nothing that tells them apart, so that it judges by whether all sizes fit.
 pub fn readers() -> &'static [&'static dyn MeshReader] {
-    static READERS: [&dyn MeshReader; 3] = [&vtk::VTU, &vtk::LEGACY, &PLOT3D];
+    static READERS: [&dyn MeshReader; 19] = [
+        &vtk::VTU,
+        &vtk::VTI,
+        &vtk::VTR,
+        &vtk::VTS,
+        &vtk::PVTU,
+        &vtk::PVTI,
+        &vtk::PVTR,
+        &vtk::PVTS,
+        &vtk::PVD,
+        &vtk::SERIES,
+        &vtk::BLOCKS,
+        &vtk::LEGACY,
+        &VTKHDF,
+        &EXODUS,
+        &GMSH,
+        &NRRD,
+        &OPENFOAM,
+        &RAW,
+        &PLOT3D,
+    ];
     &READERS
 }
 
 /// Reads a mesh of any known format, found by its content first and by its extension where the content does not tell.
 ///
-/// `solution` is a second file that belongs to the mesh: PLOT3D's q file. A file whose content is of another format than
+/// `options` say what the file does not: PLOT3D's q file, which time step, size and type of a raw volume, which is taken for one whatever its
+/// content. So is a file whose name says them and which is as long as that. Any other file whose content is of another format than
 /// its extension says is read by its content, with a warning.
 ///
 /// # Errors
 /// [`IoError::Read`] when the system does not give the file, [`IoError::Unsupported`] when no reader takes it (the message
 /// lists those there are), [`IoError::Invalid`] when it is broken.
-pub fn read_mesh(path: &Path, solution: Option<&Path>) -> Result<Loaded, IoError> {
-    let source = Source { path: path.to_owned(), bytes: read_whole(path)?, solution: solution.map(Path::to_owned) };
+pub fn read_mesh(path: &Path, options: &ReadOptions) -> Result<Loaded, IoError> {
+    open(path, options, true)
+}
+
+/// Reads a mesh that another file names, of any format but those that name meshes themselves: such files could name each other without end.
+pub(crate) fn read_part(path: &Path) -> Result<Loaded, IoError> {
+    open(path, &ReadOptions::default(), false)
+}
+
+fn open(path: &Path, options: &ReadOptions, may_name_meshes: bool) -> Result<Loaded, IoError> {
+    let source = |bytes: Vec<u8>| Source { path: path.to_owned(), bytes, options: options.clone() };
+    let by_path = readers().iter().copied().find(|reader| reader.takes(path));
+    if let Some(reader) = by_path {
+        return finished(&source(Vec::new()), reader);
+    }
+    let source = source(read_whole(path)?);
+    if options.raw.is_some() || RawVolume::of_name(path, source.bytes.len() as u64).is_some() {
+        return finished(&source, &RAW);
+    }
     let extension = source.extension();
     let expected = reader_of_extension(&extension);
     let recognized = readers().iter().copied().find(|reader| reader.recognizes(&source.bytes));
@@ -33,10 +74,14 @@ pub fn read_mesh(path: &Path, solution: Option<&Path>) -> Result<Loaded, IoError
             None => expected.ok_or_else(|| foreign::refuse_by_extension(path, readers()))?,
         },
     };
+    if reader.names_meshes() && !may_name_meshes {
+        return Err(source.unsupported(
+            format!("a file that names meshes ({}) inside another", reader.name()),
+            "name the meshes themselves in the outer file, or read the inner one by itself",
+        ));
+    }
 
-    let mut loaded = reader.read(&source)?;
-    loaded.warnings = loaded.warnings.into_iter().map(printable).collect();
-    loaded.format = printable(loaded.format);
+    let mut loaded = finished(&source, reader)?;
     let named_otherwise =
         expected.is_some_and(|other| other.name() != reader.name()) || foreign::is_foreign_extension(&extension);
     // Extensions that two readers share say nothing against either.
@@ -46,11 +91,23 @@ pub fn read_mesh(path: &Path, solution: Option<&Path>) -> Result<Loaded, IoError
             reader.name()
         ));
     }
-    if solution.is_some() && reader.name() != PLOT3D.name() {
+    Ok(loaded)
+}
+
+/// What a reader gives, with what is the same for all.
+fn finished(source: &Source, reader: &dyn MeshReader) -> Result<Loaded, IoError> {
+    let mut loaded = reader.read(source)?;
+    loaded.warnings = loaded.warnings.into_iter().map(printable).collect();
+    loaded.format = printable(loaded.format);
+    if source.options.solution.is_some() && reader.name() != PLOT3D.name() {
         loaded.warnings.push(format!(
             "the solution file was not read: only PLOT3D keeps its arrays in a second file, and this is {}",
             reader.name()
         ));
+    }
+    // Of a file with steps the reader has chosen one.
+    if loaded.times.is_empty() {
+        source.step(&[])?;
     }
     Ok(loaded)
 }
@@ -69,7 +126,7 @@ pub(crate) fn read_whole(path: &Path) -> Result<Vec<u8>, IoError> {
         return Err(IoError::Unsupported {
             path: path.to_owned(),
             what: if metadata.is_dir() { "reading a folder" } else { "reading a device or pipe" }.to_owned(),
-            remedy: "name a regular file".to_owned(),
+            remedy: "name a regular file, or the folder of an OpenFOAM case".to_owned(),
         });
     }
     let bytes = std::fs::read(path).map_err(failed)?;
@@ -102,7 +159,7 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join(name);
         std::fs::write(&path, bytes).unwrap();
-        let message = read_mesh(&path, None).unwrap_err().to_string();
+        let message = read_mesh(&path, &ReadOptions::default()).unwrap_err().to_string();
         assert!(message.contains(name), "{message}");
         message
     }
@@ -118,22 +175,19 @@ mod tests {
         let png = refusal("picture.vtu", b"\x89PNG\r\n\x1a\n....");
         assert!(png.contains("PNG picture") && png.contains("PLOT3D"), "{png}");
         assert!(refusal("empty.vtu", b"").contains("empty (0 bytes)"));
-        let gmsh = refusal("block.msh", b"$MeshFormat\n4.1 0 8\n");
-        assert!(gmsh.contains("Gmsh is not supported") && gmsh.contains("meshio"), "{gmsh}");
-        assert!(refusal("can.whatever", b"CDF\x02....").contains("Exodus"));
-        assert!(refusal("volume.nhdr", b"NRRD0004\n").contains("NRRD"));
-        assert!(refusal("unrecognizable.vti", b"what is this").contains("VTI"));
-        assert!(refusal("notes.txt", b"nothing of the kind").contains(".msh"));
+        assert!(refusal("fluent.msh", b"(0 \"Fluent\")").contains("Fluent"));
+        assert!(refusal("unrecognizable.vti", b"what is this").contains("XML"));
+        assert!(refusal("notes.txt", b"nothing of the kind").contains(".exo"));
         assert!(refusal("noextension", b"nothing of the kind").contains("no extension"));
     }
 
     #[test]
     fn missing_files_and_folders() {
         let folder = tempfile::tempdir().unwrap();
-        let missing = read_mesh(&folder.path().join("missing.vtu"), None).unwrap_err();
+        let missing = read_mesh(&folder.path().join("missing.vtu"), &ReadOptions::default()).unwrap_err();
         assert!(matches!(missing, IoError::Read { .. }), "{missing}");
         assert!(missing.to_string().contains("missing.vtu"));
-        let is_folder = read_mesh(folder.path(), None).unwrap_err();
+        let is_folder = read_mesh(folder.path(), &ReadOptions::default()).unwrap_err();
         assert!(is_folder.to_string().contains("folder"), "{is_folder}");
     }
 }

@@ -9,16 +9,16 @@
 use std::path::Path;
 use std::time::Instant;
 
-use tetrascope::Volume;
 use tetrascope::mesh::FaceAdjacency;
 use tetrascope::order::{Budget, Cells, Heights, MeshVisibility};
+use tetrascope::{ReadOptions, Volume};
 
 fn main() {
     println!("| mesh | tetrahedra | wrong with \\|p\\|² | wrong | folded | found by | seconds | faces | across gaps |");
     println!("| --- | --- | --- | --- | --- | --- | --- | --- | --- |");
     for argument in std::env::args().skip(1) {
         let path = Path::new(&argument);
-        let volume = match Volume::load(path, None) {
+        let volume = match Volume::load(path, &ReadOptions::default()) {
             Ok(volume) => volume,
             Err(error) => {
                 eprintln!("{argument}: {error}");

@@ -7,7 +7,7 @@ use tetrascope_io::write_image;
 use tetrascope_scene::{Counts, DeviceReport, Plan, Progress, SceneFile, explain_blank};
 use tetrascope_view::LinearImage;
 
-use crate::{Error, OrderWorth, Volume, resolve_path};
+use crate::{Error, OrderWorth, ReadOptions, Volume, resolve_path};
 
 /// A picture, and how it was made.
 #[derive(Clone, Debug)]
@@ -48,7 +48,8 @@ impl Picture {
 /// [`Error`], from whichever step failed.
 pub fn render_scene(scene: &SceneFile, base_dir: &Path, progress: &dyn Progress) -> Result<Picture, Error> {
     let solution = scene.mesh.solution.as_ref().map(|path| resolve_path(base_dir, path));
-    let volume = Volume::load(&resolve_path(base_dir, &scene.mesh.path), solution.as_deref())?;
+    let volume =
+        Volume::load(&resolve_path(base_dir, &scene.mesh.path), &ReadOptions::with_solution(solution.as_deref()))?;
     render_volume(&volume, scene, progress)
 }
 

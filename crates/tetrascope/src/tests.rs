@@ -3,8 +3,8 @@
 use tetrascope_mesh::rings_sample;
 
 use crate::{
-    Backend, Choice, CycleRemedy, Error, GpuError, IsosurfaceSection, OpticalModel, OrderMethod, SceneFile, Silent,
-    Volume, render_scene, render_volume,
+    Backend, Choice, CycleRemedy, Error, GpuError, IsosurfaceSection, OpticalModel, OrderMethod, ReadOptions,
+    SceneFile, Silent, Volume, render_scene, render_volume,
 };
 
 fn small_scene() -> SceneFile {
@@ -158,7 +158,7 @@ fn heights_from_a_file_make_no_mesh_delaunay() {
     let picture = render_scene(&scene, ".".as_ref(), &Silent).unwrap();
     assert_eq!(picture.plan.order, OrderMethod::Power);
 
-    let volume = Volume::load(&path, None).unwrap();
+    let volume = Volume::load(&path, &ReadOptions::default()).unwrap();
     for reads_heights in [false, true] {
         let field = volume.field(None).unwrap();
         let mut completed = scene.complete(&field.facts).unwrap();

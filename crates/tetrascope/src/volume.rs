@@ -6,7 +6,7 @@ use std::time::{Duration, Instant};
 
 use tetrascope_cpu::{CpuRenderer, reference};
 use tetrascope_gpu::GpuError;
-use tetrascope_io::{file_length, read_mesh};
+use tetrascope_io::{ReadOptions, file_length, read_mesh};
 use tetrascope_mesh::{CellKind, Cells, Dataset, Decomposition, StructuredBlock, decompose};
 use tetrascope_scene::{
     ArraySummary, Backend, Field, FieldOnMesh, MeshFacts, Plan, Progress, Rendered, Stage, Work, place_on_mesh,
@@ -39,18 +39,22 @@ pub struct Volume {
     pub dataset: Dataset,
     /// The tetrahedra, and what was left out.
     pub decomposition: Decomposition,
+    /// The times of all steps that the file has; empty where it knows no time.
+    pub times: Vec<f64>,
+    /// Which of these was read.
+    pub step: usize,
     /// Wall time of reading and of cutting.
     pub timings: [(&'static str, Duration); 2],
 }
 
 impl Volume {
-    /// Reads a mesh file and cuts its cells into tetrahedra. `solution` is PLOT3D's second file.
+    /// Reads a mesh file and cuts its cells into tetrahedra.
     ///
     /// The path [`SAMPLE`] stands for [`Volume::sample`].
     ///
     /// # Errors
     /// [`Error::Io`] if the file is not read, [`Error::Mesh`] if nothing in it has a volume, [`Error::MeshMemory`] if either cannot be held.
-    pub fn load(path: &Path, solution: Option<&Path>) -> Result<Self, Error> {
+    pub fn load(path: &Path, options: &ReadOptions) -> Result<Self, Error> {
         if is_builtin(path) {
             return if path == Path::new(SAMPLE) {
                 Self::sample()
@@ -60,14 +64,15 @@ impl Volume {
         }
         let start = Instant::now();
         // What cannot be looked at is the reader's to tell.
-        memory::check_file(file_length(path) + solution.map_or(0, file_length))
+        memory::check_file(file_length(path) + options.solution.as_deref().map_or(0, file_length))
             .map_err(|error| Error::MeshMemory { source_name: path.display().to_string(), error })?;
-        let loaded = read_mesh(path, solution)?;
+        let loaded = read_mesh(path, options)?;
         let read = start.elapsed();
         let mut volume = Self::from_dataset(loaded.dataset, &path.display().to_string())?;
         volume.path = Some(path.to_owned());
         volume.format = loaded.format;
         volume.warnings = loaded.warnings;
+        (volume.times, volume.step) = (loaded.times, loaded.step);
         volume.timings[0].1 = read;
         Ok(volume)
     }
@@ -87,6 +92,8 @@ impl Volume {
             path: None,
             format: "in memory".to_owned(),
             warnings: Vec::new(),
+            times: Vec::new(),
+            step: 0,
             dataset,
             decomposition,
             timings: [("read", Duration::ZERO), ("decompose", start.elapsed())],

@@ -2,9 +2,9 @@
 
 use std::path::Path;
 
-use tetrascope::Volume;
 use tetrascope::mesh::CellId;
 use tetrascope::order::{Cells, Guarantee, MeshVisibility, OrderMethod};
+use tetrascope::{ReadOptions, Volume};
 use tetrascope_tests::meshes::Random;
 use tetrascope_tests::shared;
 
@@ -42,7 +42,7 @@ const RAYS: usize = 2;
 
 fn load(data: &Path, mesh: &str) -> Volume {
     let solution = mesh.strip_suffix("xyz.bin").map(|name| data.join(format!("{name}q.bin")));
-    Volume::load(&data.join(mesh), solution.as_deref()).unwrap()
+    Volume::load(&data.join(mesh), &ReadOptions::with_solution(solution.as_deref())).unwrap()
 }
 
 /// Zero pairs out of order but within rings. Rays judge nobody where cells overlap: the order of what they meet is no fact there.

@@ -6,8 +6,8 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::{Path, PathBuf};
 
 use tetrascope::{
-    Backend, Cells, Choice, DataArray, Dataset, Error, IoError, SceneFile, Silent, StructuredBlock, Volume, read_exr,
-    read_heights, read_mesh, read_picture, read_png, render_volume,
+    Backend, Cells, Choice, DataArray, Dataset, Error, IoError, ReadOptions, SceneFile, Silent, StructuredBlock,
+    Volume, read_exr, read_heights, read_mesh, read_picture, read_png, render_volume,
 };
 
 use super::{Target, corpus};
@@ -132,7 +132,10 @@ impl Judge {
                 if target == Target::Plot3dSolution {
                     fs::write(&solution, second).map_err(|e| e.to_string())?;
                 }
-                let result = read_mesh(&path, (target == Target::Plot3dSolution).then_some(solution.as_path()));
+                let result = read_mesh(
+                    &path,
+                    &ReadOptions::with_solution((target == Target::Plot3dSolution).then_some(solution.as_path())),
+                );
                 let allocated = spent()?;
                 let is_read = is_read(&result, &[&path, &solution])?;
                 let Ok(loaded) = result else { return Ok(Verdict { is_read, is_drawn: false, allocated }) };

@@ -4,7 +4,7 @@ use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
 use tetrascope::mesh::{ArrayValues, Cells};
-use tetrascope::{Error, SceneFile, Volume, write_bytes, write_vtu};
+use tetrascope::{Error, ReadOptions, SceneFile, Volume, write_bytes, write_vtu};
 
 use super::{Case, Failure};
 use crate::meshes::Tets;
@@ -83,7 +83,7 @@ pub fn read_case(scene: &Path, seed: u64) -> Result<Case, Error> {
         .map_err(|source| Error::Io(tetrascope::IoError::Read { path: scene.to_owned(), source }))?;
     let scene_file = SceneFile::parse(&text, scene)?;
     let mesh = scene.parent().unwrap_or(Path::new(".")).join(&scene_file.mesh.path);
-    let dataset = Volume::load(&mesh, None)?.dataset;
+    let dataset = Volume::load(&mesh, &ReadOptions::default())?.dataset;
     let Cells::Unstructured(cells) = &dataset.cells else {
         return Err(Error::NoSuchSample { name: mesh });
     };

@@ -5,8 +5,8 @@ use std::fmt::Write as _;
 use std::path::Path;
 
 use tetrascope::{
-    Choice, ErrorFigures, Integration, LinearImage, OrderMethod, Plan, SceneFile, Silent, TableSettings, Volume,
-    VolumeField, resolve_path, short,
+    Choice, ErrorFigures, Integration, LinearImage, OrderMethod, Plan, ReadOptions, SceneFile, Silent, TableSettings,
+    Volume, VolumeField, resolve_path, short,
 };
 use tetrascope_tests::scenes::random_scene;
 
@@ -53,7 +53,10 @@ pub(super) fn run(scenes: u64, detail: bool) -> Result<(), Failure> {
             let path = references.join(file).with_extension("toml");
             let scene = SceneFile::parse(&std::fs::read_to_string(&path)?, &path)?;
             let solution = scene.mesh.solution.as_ref().map(|path| resolve_path(references, path));
-            let volume = Volume::load(&resolve_path(references, &scene.mesh.path), solution.as_deref())?;
+            let volume = Volume::load(
+                &resolve_path(references, &scene.mesh.path),
+                &ReadOptions::with_solution(solution.as_deref()),
+            )?;
             tally.add(&Subject { name: file.to_owned(), volume, scene }, detail)?;
         }
     } else {

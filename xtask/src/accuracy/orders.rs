@@ -7,7 +7,8 @@ use glam::DVec3;
 use tetrascope::mesh::rings_sample;
 use tetrascope::order::{Bucket, CycleRemedy, OrderMethod};
 use tetrascope::{
-    Camera, CpuRenderer, LinearImage, OpticalModel, Plan, Projection, Silent, TransferFunction, View, Volume,
+    Camera, CpuRenderer, LinearImage, OpticalModel, Plan, Projection, ReadOptions, Silent, TransferFunction, View,
+    Volume,
 };
 
 use crate::Failure;
@@ -119,7 +120,11 @@ pub(super) fn tables(data: Option<&Path>, only: &str) -> Result<String, Failure>
     for subject in SUBJECTS.iter().filter(|subject| subject.name.contains(only)) {
         let Some(data) = data else { break };
         let files: Vec<PathBuf> = subject.files.iter().map(|file| data.join(file)).collect();
-        add(subject.name, &Volume::load(&files[0], files.get(1).map(PathBuf::as_path))?, subject.field)?;
+        add(
+            subject.name,
+            &Volume::load(&files[0], &ReadOptions::with_solution(files.get(1).map(PathBuf::as_path)))?,
+            subject.field,
+        )?;
     }
     Ok(format!("{smooth}\n{peaks}"))
 }

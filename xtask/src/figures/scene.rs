@@ -3,7 +3,9 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use tetrascope::{LinearImage, Plan, SceneFile, Silent, Volume, VolumeField, is_builtin, render_volume, resolve_path};
+use tetrascope::{
+    LinearImage, Plan, ReadOptions, SceneFile, Silent, Volume, VolumeField, is_builtin, render_volume, resolve_path,
+};
 
 use super::{raw, sheet};
 use crate::Failure;
@@ -29,7 +31,7 @@ impl Drawing {
         let volume = if mesh.extension().is_some_and(|ending| ending == "raw") {
             Volume::from_dataset(raw::read(&mesh)?, &mesh.display().to_string())?
         } else {
-            Volume::load(&mesh, solution.as_deref())?
+            Volume::load(&mesh, &ReadOptions::with_solution(solution.as_deref()))?
         };
         Ok(Some(Self { scene, volume }))
     }

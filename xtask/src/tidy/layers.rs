@@ -22,6 +22,7 @@ const LAYERS: &[Layer] = &[
     layer("tetrascope-mesh", 0, &[], "it knows no camera and no color"),
     layer("tetrascope-view", 0, &[], "it knows no mesh and no optics"),
     layer("tetrascope-integrate", 0, &[], "it stands alone"),
+    layer("tetrascope-colors", 0, &[], "it knows no mesh and no field"),
     layer(
         "tetrascope-classify",
         1,

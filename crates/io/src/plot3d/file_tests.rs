@@ -4,11 +4,11 @@ use std::path::Path;
 
 use tetrascope_mesh::{Cells, DataArray};
 
-use crate::{IoError, Loaded, read_mesh, shared::shared};
+use crate::{IoError, Loaded, ReadOptions, read_mesh, shared::shared};
 
 fn load(grid: &str, solution: &str) -> Option<Loaded> {
     let folder = shared("data/plot3d")?;
-    Some(read_mesh(&folder.join(grid), Some(&folder.join(solution))).unwrap())
+    Some(read_mesh(&folder.join(grid), &ReadOptions::with_solution(Some(&folder.join(solution)))).unwrap())
 }
 
 fn array<'a>(loaded: &'a Loaded, name: &str) -> &'a DataArray {
@@ -210,22 +210,24 @@ fn files_named_the_other_way_round() {
 #[test]
 fn one_file_alone() {
     let Some(folder) = shared("data/plot3d") else { return };
-    let grid = read_mesh(&folder.join("bluntfinxyz.bin"), None).unwrap();
+    let grid = read_mesh(&folder.join("bluntfinxyz.bin"), &ReadOptions::default()).unwrap();
     assert!(grid.dataset.point_arrays.is_empty());
     assert!(grid.warnings.len() == 1 && grid.warnings[0].contains("solution"), "{:?}", grid.warnings);
     let grid = folder.join("bluntfinxyz.bin");
-    let twice = read_mesh(&grid, Some(&grid)).unwrap_err().to_string();
+    let twice = read_mesh(&grid, &ReadOptions::with_solution(Some(&grid))).unwrap_err().to_string();
     assert!(twice.contains("no layout of a PLOT3D solution"), "{twice}");
     for solution in ["bluntfinq.bin", "multi-ascii.q", "annulus_fortran_le_iblank.q"] {
-        let error = read_mesh(&folder.join(solution), None).unwrap_err().to_string();
+        let error = read_mesh(&folder.join(solution), &ReadOptions::default()).unwrap_err().to_string();
         assert!(error.contains(solution) && error.contains("name its grid"), "{error}");
-        let twice = read_mesh(&folder.join(solution), Some(&folder.join(solution))).unwrap_err().to_string();
+        let twice = read_mesh(&folder.join(solution), &ReadOptions::with_solution(Some(&folder.join(solution))))
+            .unwrap_err()
+            .to_string();
         assert_eq!(twice, error);
     }
 }
 
 fn refusal(grid: &Path, solution: Option<&Path>) -> Option<(String, String)> {
-    let error = read_mesh(grid, solution).unwrap_err();
+    let error = read_mesh(grid, &ReadOptions::with_solution(solution)).unwrap_err();
     let IoError::Invalid { path, problem, .. } = error else { panic!("{error}") };
     Some((path.file_name()?.to_string_lossy().into_owned(), problem))
 }

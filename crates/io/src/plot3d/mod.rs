@@ -62,7 +62,7 @@ impl MeshReader for Plot3d {
         let main_is_solution = grid.as_ref().map_or(true, |fit| fit.padding > 0)
             && detect(&main, Kind::Solution).is_ok_and(|fit| grid.is_err() || fit.padding == 0);
 
-        let Some(second_path) = &source.solution else {
+        let Some(second_path) = &source.options.solution else {
             if main_is_solution {
                 return Err(no_coordinates(source));
             }
@@ -70,10 +70,10 @@ impl MeshReader for Plot3d {
             let mut warnings =
                 vec!["a PLOT3D grid alone has no arrays of flow; name its solution (q file) to have them".to_owned()];
             let (dataset, format) = grid_dataset(source, &main, &grid, &mut warnings)?;
-            return Ok(Loaded { dataset, format: format!("PLOT3D, {format}"), warnings });
+            return Ok(Loaded::without_time(dataset, format!("PLOT3D, {format}"), warnings));
         };
 
-        let second = Source { path: second_path.clone(), bytes: read_whole(second_path)?, solution: None };
+        let second = Source { path: second_path.clone(), bytes: read_whole(second_path)?, ..Default::default() };
         let allowed = grid.as_ref().map_or(0, |fit| fit.points().sum::<usize>().saturating_mul(SOLUTION_NUMBERS));
         let second_content = open(&second, allowed)?;
         let second_as_grid = if main_is_solution { detect(&second_content, Kind::Grid).ok() } else { None };
@@ -126,7 +126,7 @@ fn join(
     } else {
         format!("PLOT3D, {format}; solution: {}, {flow}", fit.layout)
     };
-    Ok(Loaded { dataset, format, warnings })
+    Ok(Loaded::without_time(dataset, format, warnings))
 }
 
 /// The arrays of a solution and a few words on its reference values.

@@ -9,7 +9,7 @@ use super::{
 };
 
 fn source(bytes: Vec<u8>) -> Source {
-    Source { path: PathBuf::from("grid.xyz"), bytes, solution: None }
+    Source { path: PathBuf::from("grid.xyz"), bytes, ..Default::default() }
 }
 
 /// The grids that a layout's file is filled with: one, or three of different sizes.

@@ -5,14 +5,14 @@
 use tetrascope_mesh::CellKind;
 
 /// The number of VTK's polyhedron, whose faces are stored apart.
-pub(super) const POLYHEDRON: i64 = 42;
+pub(crate) const POLYHEDRON: i64 = 42;
 
 /// The kind that a type number stands for.
 ///
 /// Points, lines and faces of any order are [`CellKind::Flat`], and so is the empty cell (0). Cells with a volume that
 /// are not told apart (Lagrange, Bézier, convex point sets) and numbers that VTK does not use are [`CellKind::Other`].
 /// Nothing for numbers that do not fit into a byte, as VTK stores types in one.
-pub(super) fn kind_of(number: i64) -> Option<CellKind> {
+pub(crate) fn kind_of(number: i64) -> Option<CellKind> {
     Some(match u8::try_from(number).ok()? {
         10 => CellKind::Tetrahedron,
         11 => CellKind::Voxel,
@@ -39,7 +39,7 @@ pub(super) fn kind_of(number: i64) -> Option<CellKind> {
 }
 
 /// The number that [`kind_of`] takes for a kind; nothing for polyhedra and for what several numbers stand for.
-pub(super) fn number_of(kind: CellKind) -> Option<u8> {
+pub(crate) fn number_of(kind: CellKind) -> Option<u8> {
     match kind {
         CellKind::Polyhedron | CellKind::Flat => None,
         CellKind::Other(number) => Some(number),
@@ -48,7 +48,7 @@ pub(super) fn number_of(kind: CellKind) -> Option<u8> {
 }
 
 /// How many points a cell of this kind has; nothing where the number varies or is not known.
-pub(super) fn point_count_of(kind: CellKind) -> Option<usize> {
+pub(crate) fn point_count_of(kind: CellKind) -> Option<usize> {
     Some(match kind {
         CellKind::Tetrahedron => 4,
         CellKind::Pyramid => 5,

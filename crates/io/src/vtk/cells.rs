@@ -7,10 +7,10 @@ use super::cell_types::{kind_of, point_count_of};
 use crate::{IoError, Source};
 
 /// The faces of one polyhedron, as point indices of its piece.
-pub(super) type Faces = Vec<Vec<i64>>;
+pub(crate) type Faces = Vec<Vec<i64>>;
 
 /// Collects cells; indices count from the first point of the current piece.
-pub(super) struct CellBuilder<'a> {
+pub(crate) struct CellBuilder<'a> {
     source: &'a Source,
     cells: UnstructuredCells,
     point_base: u32,
@@ -40,7 +40,7 @@ impl Tally {
 
 impl<'a> CellBuilder<'a> {
     /// A builder without cells.
-    pub(super) fn new(source: &'a Source) -> Self {
+    pub(crate) fn new(source: &'a Source) -> Self {
         Self {
             source,
             cells: UnstructuredCells::default(),
@@ -57,7 +57,7 @@ impl<'a> CellBuilder<'a> {
     ///
     /// # Errors
     /// [`IoError::Unsupported`] where a point index would not fit into 32 bits.
-    pub(super) fn begin_piece(&mut self, place: &str, point_base: usize, point_count: usize) -> Result<(), IoError> {
+    pub(crate) fn begin_piece(&mut self, place: &str, point_base: usize, point_count: usize) -> Result<(), IoError> {
         let fits = point_base.checked_add(point_count).is_some_and(|end| u32::try_from(end).is_ok());
         let (Ok(base), Ok(count), true) = (u32::try_from(point_base), u32::try_from(point_count), fits) else {
             return Err(self.source.unsupported(
@@ -75,7 +75,7 @@ impl<'a> CellBuilder<'a> {
     ///
     /// Points beyond those that its kind has are left out; too few are kept, for the mesh to count the cell as malformed.
     /// Both are reported by [`finish`](Self::finish).
-    pub(super) fn push(&mut self, kind_number: i64, points: &[i64]) -> Result<(), IoError> {
+    pub(crate) fn push(&mut self, kind_number: i64, points: &[i64]) -> Result<(), IoError> {
         let kind = self.kind(kind_number)?;
         let mut used = points;
         if let Some(needed) = point_count_of(kind) {
@@ -96,7 +96,7 @@ impl<'a> CellBuilder<'a> {
     }
 
     /// Adds a polyhedron with its faces; `points` may be empty, then they are those of the faces, each once.
-    pub(super) fn push_polyhedron(&mut self, points: &[i64], faces: &Faces) -> Result<(), IoError> {
+    pub(crate) fn push_polyhedron(&mut self, points: &[i64], faces: &Faces) -> Result<(), IoError> {
         let mut checked = Vec::with_capacity(faces.len());
         for face in faces {
             let face: Result<Vec<u32>, IoError> = face.iter().map(|&point| self.index(point)).collect();
@@ -115,7 +115,7 @@ impl<'a> CellBuilder<'a> {
     }
 
     /// The cells, and warnings about those with too few or too many points.
-    pub(super) fn finish(self, warnings: &mut Vec<String>) -> UnstructuredCells {
+    pub(crate) fn finish(self, warnings: &mut Vec<String>) -> UnstructuredCells {
         if self.too_few.count > 0 {
             warnings.push(format!(
                 "{} cells have too few points for their kind and cannot be drawn; the first: {}",
@@ -132,7 +132,7 @@ impl<'a> CellBuilder<'a> {
     }
 
     /// An error about the cell that is to be added next.
-    pub(super) fn invalid(&self, problem: impl Into<String>) -> IoError {
+    pub(crate) fn invalid(&self, problem: impl Into<String>) -> IoError {
         self.source.invalid(format!("{}, cell {}", self.place, self.number()), problem, DAMAGED)
     }
 
@@ -165,7 +165,7 @@ impl<'a> CellBuilder<'a> {
 /// Takes one polyhedron's faces from a stream: the number of faces, then for each its number of points and the points.
 ///
 /// Gives the faces and how many numbers they took. The error says what is wrong, for the caller to add the place.
-pub(super) fn read_face_stream(stream: &[i64]) -> Result<(Faces, usize), String> {
+pub(crate) fn read_face_stream(stream: &[i64]) -> Result<(Faces, usize), String> {
     let mut at = 0;
     let next_count = |at: &mut usize, what: &str| -> Result<usize, String> {
         let count = *stream.get(*at).ok_or_else(|| format!("its face stream ends before {what}"))?;

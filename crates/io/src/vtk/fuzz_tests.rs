@@ -2,20 +2,26 @@
 
 use proptest::prelude::*;
 
+use super::legacy::grid_tests::structured_points;
 use super::legacy::tests::binary_file;
 use super::test_support::{read, sanity_check};
-use super::vtu::tests::{ascii_file, raw_zlib_file};
+use super::xml::grid_tests::{KINDS, in_two_pieces};
+use super::xml::tests::{ascii_file, raw_zlib_file};
 
 const LEGACY_TEXT: &str = "# vtk DataFile Version 5.1\nt\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 5 float\n\
     0 0 0 1 0 0 0 1 0 0 0 1 1 1 1\nCELLS 3 21\nOFFSETS vtktypeint64\n0 17 21\nCONNECTIVITY vtktypeint64\n\
     4 3 0 1 2 3 0 1 3 3 1 2 3 3 0 2 3 1 2 3 4\nCELL_TYPES 2\n42 10\nPOINT_DATA 5\nFIELD f 1\na%20b 1 5 int\n1 2 3 4 5\n";
 
-fn seeds() -> [(&'static str, Vec<u8>); 4] {
+fn seeds() -> [(&'static str, Vec<u8>); 8] {
     [
         ("ascii.vtu", ascii_file().into_bytes()),
         ("raw.vtu", raw_zlib_file()),
         ("binary.vtk", binary_file()),
         ("text.vtk", LEGACY_TEXT.as_bytes().to_vec()),
+        ("pieces.vti", in_two_pieces(KINDS[0]).into_bytes()),
+        ("pieces.vtr", in_two_pieces(KINDS[1]).into_bytes()),
+        ("pieces.vts", in_two_pieces(KINDS[2]).into_bytes()),
+        ("points.vtk", structured_points()),
     ]
 }
 
@@ -45,7 +51,7 @@ fn files_cut_anywhere() {
 proptest! {
     #[test]
     fn files_with_changed_bytes(
-        seed in 0..4_usize,
+        seed in 0..8_usize,
         changes in prop::collection::vec((any::<prop::sample::Index>(), any::<u8>()), 1..6),
     ) {
         let (name, mut bytes) = seeds()[seed].clone();
@@ -58,7 +64,7 @@ proptest! {
 
     #[test]
     fn files_with_other_digits(
-        seed in 0..4_usize,
+        seed in 0..8_usize,
         changes in prop::collection::vec((any::<prop::sample::Index>(), 0..10_u8), 1..6),
     ) {
         let (name, mut bytes) = seeds()[seed].clone();
@@ -71,7 +77,7 @@ proptest! {
 
     #[test]
     fn blocks_of_any_bytes_in_every_compressor(block in prop::collection::vec(any::<u8>(), 0..300), size in 0..5000_usize) {
-        use super::vtu::tests::decompress_with_all;
+        use super::xml::tests::decompress_with_all;
         decompress_with_all(&block, size);
     }
 }

@@ -6,7 +6,7 @@ use tetrascope_mesh::{ArrayValues, DataArray};
 
 /// Arrays in the order of the file.
 #[derive(Debug, Default)]
-pub(super) struct NamedArrays {
+pub(crate) struct NamedArrays {
     arrays: Vec<DataArray>,
     taken: HashSet<String>,
     /// The number to try next behind a prefix. Starting anew each time would take time with the square of the names' number.
@@ -18,7 +18,7 @@ impl NamedArrays {
     /// characters, which can make a terminal do anything, become `_`; `warnings` says so.
     ///
     /// - `owner`: "point" or "cell", for the warning
-    pub(super) fn add(
+    pub(crate) fn add(
         &mut self,
         owner: &str,
         name: &str,
@@ -47,7 +47,7 @@ impl NamedArrays {
     }
 
     /// All arrays.
-    pub(super) fn into_arrays(self) -> Vec<DataArray> {
+    pub(crate) fn into_arrays(self) -> Vec<DataArray> {
         self.arrays
     }
 

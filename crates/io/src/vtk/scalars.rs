@@ -6,7 +6,7 @@ use tetrascope_mesh::ArrayValues;
 
 /// The type of an array's numbers as its file declares it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum ScalarType {
+pub(crate) enum ScalarType {
     I8,
     U8,
     I16,
@@ -21,18 +21,18 @@ pub(super) enum ScalarType {
 
 /// The order of the bytes of one number.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum ByteOrder {
+pub(crate) enum ByteOrder {
     Little,
     Big,
 }
 
 /// A word among numbers that is none of the declared type.
 #[derive(Debug)]
-pub(super) struct BadWord {
+pub(crate) struct BadWord {
     /// How many numbers were read before it.
-    pub(super) index: usize,
+    pub(crate) index: usize,
     /// The word, cut to a length that fits a message.
-    pub(super) word: String,
+    pub(crate) word: String,
 }
 
 /// Runs one expression with `$t` as the Rust type of a scalar type, and wraps the vector that it gives.
@@ -85,7 +85,7 @@ macro_rules! for_type {
 
 impl ScalarType {
     /// Bytes a number takes.
-    pub(super) fn size(self) -> usize {
+    pub(crate) fn size(self) -> usize {
         match self {
             Self::I8 | Self::U8 => 1,
             Self::I16 | Self::U16 => 2,
@@ -95,7 +95,7 @@ impl ScalarType {
     }
 
     /// Numbers from bytes; what is left over behind the last whole number is not read.
-    pub(super) fn decode_bytes(self, bytes: &[u8], order: ByteOrder) -> ArrayValues {
+    pub(crate) fn decode_bytes(self, bytes: &[u8], order: ByteOrder) -> ArrayValues {
         for_type!(self, T => from_bytes::<T, { size_of::<T>() }>(bytes, order))
     }
 
@@ -103,7 +103,7 @@ impl ScalarType {
     ///
     /// # Errors
     /// [`BadWord`] at the first word that is no number of this type.
-    pub(super) fn parse_words(
+    pub(crate) fn parse_words(
         self,
         words: &mut dyn Iterator<Item = &str>,
         limit: usize,
@@ -186,7 +186,7 @@ fn from_words<T: Word>(words: &mut dyn Iterator<Item = &str>, limit: usize) -> R
 
 /// Whole numbers as they are used for indices. Nothing for arrays of floating-point numbers; numbers beyond `i64` become
 /// its largest, which no index reaches.
-pub(super) fn to_indices(values: &ArrayValues) -> Option<Vec<i64>> {
+pub(crate) fn to_indices(values: &ArrayValues) -> Option<Vec<i64>> {
     Some(match values {
         ArrayValues::I8(v) => v.iter().map(|&x| x.into()).collect(),
         ArrayValues::U8(v) => v.iter().map(|&x| x.into()).collect(),
@@ -201,7 +201,7 @@ pub(super) fn to_indices(values: &ArrayValues) -> Option<Vec<i64>> {
 }
 
 /// Puts the numbers of `more` behind those of `values`; `false`, and nothing done, where their types differ.
-pub(super) fn append(values: &mut ArrayValues, more: ArrayValues) -> bool {
+pub(crate) fn append(values: &mut ArrayValues, more: ArrayValues) -> bool {
     use ArrayValues::{F32, F64, I8, I16, I32, I64, U8, U16, U32, U64};
     match (values, more) {
         (I8(a), I8(b)) => a.extend(b),

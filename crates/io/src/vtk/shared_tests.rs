@@ -3,11 +3,10 @@
 
 use std::collections::BTreeMap;
 
-use tetrascope_mesh::Dataset;
+use tetrascope_mesh::{Cells, Dataset};
 
-use super::shared_table::{FILES, File};
+use super::shared_table::{Array, FILES, File};
 use super::test_support::{assert_same, bits, cells, finite_range, read_file, sanity_check, shared};
-use crate::IoError;
 
 fn check_file(file: &File, dataset: &Dataset) {
     let name = file.name;
@@ -20,8 +19,12 @@ fn check_file(file: &File, dataset: &Dataset) {
         *counts.entry(kind).or_insert(0) += 1;
     }
     assert_eq!(counts, file.kinds.iter().copied().collect(), "{name}");
-    assert_eq!(dataset.point_arrays.len() + dataset.cell_arrays.len(), file.arrays.len(), "{name}");
-    for &(owner, array, type_name, components, low, high, not_finite) in file.arrays {
+    check_arrays(name, file.arrays, dataset);
+}
+
+fn check_arrays(name: &str, described: &[Array], dataset: &Dataset) {
+    assert_eq!(dataset.point_arrays.len() + dataset.cell_arrays.len(), described.len(), "{name}");
+    for &(owner, array, type_name, components, low, high, not_finite) in described {
         let arrays = if owner == "point" { &dataset.point_arrays } else { &dataset.cell_arrays };
         let found =
             arrays.iter().find(|a| a.name == array).unwrap_or_else(|| panic!("{name}: no {owner} array {array}"));
@@ -58,8 +61,8 @@ fn shared_table_names_every_file() {
         for entry in std::fs::read_dir(folder.join(part)).unwrap() {
             let path = entry.unwrap().path();
             let name = format!("{part}/{}", path.file_name().unwrap().to_string_lossy());
-            let is_structured = ["RectGrid2", "SampleStructGrid", "ironProt"].iter().any(|s| name.contains(s));
-            assert!(path.is_dir() || is_structured || FILES.iter().any(|f| f.name == name), "{name} is in no test");
+            let is_grid = GRIDS.iter().any(|grid| grid.0 == name);
+            assert!(path.is_dir() || is_grid || FILES.iter().any(|f| f.name == name), "{name} is in no test");
         }
     }
 }
@@ -128,17 +131,62 @@ fn shared_polyhedra_are_equal_in_all_layouts() {
     assert_eq!(bits(&reference.cell_arrays[0].values), bits(&binary.cell_arrays[0].values));
 }
 
+/// Name, dims, arrays as in [`File`].
+type Grid = (&'static str, [usize; 3], &'static [Array]);
+
+const GRIDS: &[Grid] = &[
+    (
+        "volume/StructuredGrid.vts",
+        [6, 12, 9],
+        &[
+            ("point", "Density", "Float32", 1, 0.203009, 0.710419, 0),
+            ("point", "Momentum", "Float32", 3, -350.012, 332.25, 0),
+            ("point", "StagnationEnergy", "Float32", 1, 0.0, 0.0, 0),
+        ],
+    ),
+    (
+        "volume/cth.vtr",
+        [129, 65, 65],
+        &[
+            ("cell", "Pressure", "Float32", 1, -2.35945e10, 1.12038e11, 0),
+            ("cell", "Void Volume Fraction", "Float32", 1, 0.0, 1.0, 0),
+            ("cell", "X Velocity", "Float32", 1, -86618.9, 327482.0, 0),
+            ("cell", "Y Velocity", "Float32", 1, -74656.1, 78993.6, 0),
+            ("cell", "Z Velocity", "Float32", 1, -88306.7, 132856.0, 0),
+            ("cell", "Volume Fraction for Armor Plate", "Float32", 1, 0.0, 1.0, 0),
+            ("cell", "Mass for Armor Plate", "Float32", 1, 0.0, 0.00944007, 0),
+            ("cell", "Volume Fraction for Body, Nose", "Float32", 1, 0.0, 1.0, 0),
+            ("cell", "Mass for Body, Nose", "Float32", 1, 0.0, 0.00944007, 0),
+        ],
+    ),
+    (
+        "vtk/RectGrid2.vtk",
+        [47, 33, 11],
+        &[
+            ("point", "scalars", "Float32", 1, 0.0, 10.3964, 0),
+            ("point", "vectors", "Float32", 3, -5.36145, 10.0787, 0),
+        ],
+    ),
+    (
+        "vtk/SampleStructGrid.vtk",
+        [20, 30, 40],
+        &[("point", "scalars", "Float64", 1, 0.0, 1.30456, 0), ("cell", "scalars", "Float64", 1, -0.262933, 1.0, 0)],
+    ),
+    ("vtk/ironProt.vtk", [68; 3], &[("point", "scalars", "UInt8", 1, 0.0, 255.0, 0)]),
+    ("volume/heart.vti", [32, 32, 12], &[("point", "scalars", "Float32", 1, 0.0, 255.0, 0)]),
+    ("volume/hydrogen.vti", [64; 3], &[("point", "probability_density", "Float32", 1, 0.0, 1.0, 0)]),
+];
+
 #[test]
-fn shared_structured_files_are_refused_with_a_remedy() {
+fn shared_grids_are_as_described() {
     let Some(folder) = shared() else { return };
-    for (name, kind) in [
-        ("vtk/RectGrid2.vtk", "RECTILINEAR_GRID"),
-        ("vtk/SampleStructGrid.vtk", "STRUCTURED_GRID"),
-        ("vtk/ironProt.vtk", "STRUCTURED_POINTS"),
-    ] {
-        let error = read_file(&folder, name).unwrap_err();
-        assert!(matches!(error, IoError::Unsupported { .. }), "{error}");
-        let text = error.to_string();
-        assert!(text.contains(name) && text.contains(kind) && text.contains("ParaView"), "{text}");
+    for &(name, dims, arrays) in GRIDS {
+        let loaded = read_file(&folder, name).unwrap_or_else(|e| panic!("{e}"));
+        assert!(loaded.warnings.is_empty(), "{name}: {:?}", loaded.warnings);
+        let Cells::Structured(blocks) = &loaded.dataset.cells else { panic!("{name}: not structured") };
+        assert_eq!((blocks.len(), blocks[0].dims), (1, dims), "{name}");
+        check_arrays(name, arrays, &loaded.dataset);
+        let cut = tetrascope_mesh::decompose(&loaded.dataset).unwrap();
+        assert_eq!(cut.counts.tetrahedra, 5 * blocks[0].cell_count(), "{name}");
     }
 }

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use tetrascope_mesh::{ArrayValues, CellKind, Cells, DataArray, Dataset, UnstructuredCells};
 
-use super::{LEGACY, VTU};
+use super::{LEGACY, VTI, VTR, VTS, VTU};
 use crate::{IoError, Loaded, MeshReader, Source};
 
 /// The folder of the shared data, or nothing where it is absent.
@@ -14,8 +14,8 @@ pub(super) fn shared() -> Option<PathBuf> {
 
 /// Reads bytes as a file of this name, by its content or else its extension.
 pub(super) fn read(name: &str, bytes: &[u8]) -> Result<Loaded, IoError> {
-    let source = Source { path: name.into(), bytes: bytes.to_vec(), solution: None };
-    let readers: [&dyn MeshReader; 2] = [&LEGACY, &VTU];
+    let source = Source { path: name.into(), bytes: bytes.to_vec(), ..Default::default() };
+    let readers: [&dyn MeshReader; 5] = [&LEGACY, &VTU, &VTI, &VTR, &VTS];
     let reader = readers
         .iter()
         .find(|reader| reader.recognizes(bytes))
@@ -36,8 +36,30 @@ pub(super) fn cells(dataset: &Dataset) -> &UnstructuredCells {
 }
 
 /// Fails unless the cells keep what their type promises.
-pub(super) fn sanity_check(dataset: &Dataset) {
-    let rows = cells(dataset);
+pub(crate) fn sanity_check(dataset: &Dataset) {
+    let point_count = dataset.points.len();
+    let cell_count = match &dataset.cells {
+        Cells::Unstructured(rows) => {
+            sanity_check_rows(rows, point_count);
+            rows.kinds.len()
+        }
+        Cells::Structured(blocks) => {
+            for block in blocks {
+                assert!(!block.dims.contains(&0) && block.first_point + block.point_count() <= point_count);
+                assert!([0, block.point_count()].contains(&block.hidden_points.len()));
+            }
+            blocks.iter().map(tetrascope_mesh::StructuredBlock::cell_count).sum()
+        }
+    };
+    for (arrays, tuples) in [(&dataset.point_arrays, point_count), (&dataset.cell_arrays, cell_count)] {
+        for array in arrays {
+            assert!(array.components >= 1 && !array.name.is_empty());
+            assert_eq!(array.values.len(), tuples * array.components, "{}", array.name);
+        }
+    }
+}
+
+fn sanity_check_rows(rows: &UnstructuredCells, point_count: usize) {
     assert_eq!(rows.offsets.len(), rows.kinds.len() + 1);
     assert_eq!(rows.offsets[0], 0);
     assert!(rows.offsets.is_sorted());
@@ -45,13 +67,7 @@ pub(super) fn sanity_check(dataset: &Dataset) {
     let polyhedra = rows.kinds.iter().filter(|&&kind| kind == CellKind::Polyhedron).count();
     assert_eq!(polyhedra, rows.polyhedra.len());
     let faces = rows.polyhedra.iter().flatten().flatten();
-    assert!(rows.connectivity.iter().chain(faces).all(|&point| (point as usize) < dataset.points.len()));
-    for (arrays, tuples) in [(&dataset.point_arrays, dataset.points.len()), (&dataset.cell_arrays, rows.kinds.len())] {
-        for array in arrays {
-            assert!(array.components >= 1 && !array.name.is_empty());
-            assert_eq!(array.values.len(), tuples * array.components, "{}", array.name);
-        }
-    }
+    assert!(rows.connectivity.iter().chain(faces).all(|&point| (point as usize) < point_count));
 }
 
 /// Bit patterns of an array's numbers, so that equality means equality.

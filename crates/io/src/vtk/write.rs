@@ -98,7 +98,7 @@ mod tests {
     use tetrascope_mesh::UnstructuredCells;
 
     use super::*;
-    use crate::read_mesh;
+    use crate::{ReadOptions, read_mesh};
 
     #[test]
     fn what_is_written_is_read_back_to_the_bit() {
@@ -123,7 +123,7 @@ mod tests {
             cell_arrays: vec![named("c", 1, ArrayValues::I16(vec![-7, 9]))],
         };
         write_vtu(&path, &dataset).unwrap();
-        let read = read_mesh(&path, None).unwrap().dataset;
+        let read = read_mesh(&path, &ReadOptions::default()).unwrap().dataset;
         let bits = |points: &[DVec3]| points.iter().flat_map(|p| p.to_array().map(f64::to_bits)).collect::<Vec<_>>();
         assert_eq!(bits(&read.points), bits(&dataset.points));
         let (Cells::Unstructured(a), Cells::Unstructured(b)) = (&read.cells, &dataset.cells) else { panic!("blocks") };

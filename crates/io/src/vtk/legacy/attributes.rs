@@ -21,9 +21,7 @@ pub(super) fn read(
         return skip_lookup_table(lexer);
     }
     let Some(target) = target else {
-        return Err(
-            lexer.invalid(format!("\"{keyword}\" is not a section of an unstructured grid, or stands too early"))
-        );
+        return Err(lexer.invalid(format!("\"{keyword}\" is not a section of such a dataset, or stands too early")));
     };
     let fixed = match keyword {
         "VECTORS" | "NORMALS" => 3,
@@ -31,7 +29,7 @@ pub(super) fn read(
         "TENSORS6" => 6,
         "GLOBAL_IDS" | "PEDIGREE_IDS" | "EDGE_FLAGS" => 1,
         "SCALARS" | "TEXTURE_COORDINATES" | "COLOR_SCALARS" => 0,
-        _ => return Err(lexer.invalid(format!("\"{keyword}\" is not a section of an unstructured grid"))),
+        _ => return Err(lexer.invalid(format!("\"{keyword}\" is not a section of such a dataset"))),
     };
     let name = lexer.name()?;
     let (components, kind) = match keyword {

@@ -4,17 +4,23 @@
 //! arrays of text, `METADATA`, the cells of 5.1, percent-encoded names) the files that VTK itself writes.
 
 mod attributes;
+mod cells;
 mod grid;
 mod lexer;
+mod structured;
 
+#[cfg(test)]
+pub(in crate::vtk) mod grid_tests;
 #[cfg(test)]
 pub(in crate::vtk) mod tests;
 
+use super::grids::dims_of;
+use super::xml::Kind;
 use lexer::Lexer;
 
 use crate::{IoError, Loaded, MeshReader, Source};
 
-/// Reads `.vtk` files that hold an unstructured grid.
+/// Reads `.vtk` files that hold an unstructured grid or a grid of another kind.
 pub(crate) struct LegacyVtk;
 
 const MAGIC: &[u8] = b"# vtk DataFile";
@@ -41,14 +47,17 @@ impl MeshReader for LegacyVtk {
             ));
         };
         let mut lexer = Lexer::new(source, start);
-        let version = header(&mut lexer)?;
-        let loaded = grid::read(lexer)?;
+        let (version, kind) = header(&mut lexer)?;
+        let loaded = grid::read(lexer, kind)?;
         let encoding = if loaded.is_binary { "binary" } else { "ASCII" };
-        Ok(Loaded {
-            dataset: loaded.dataset,
-            format: format!("VTK legacy {version}, {encoding}"),
-            warnings: loaded.warnings,
-        })
+        let kind = match kind {
+            Kind::Unstructured => "",
+            Kind::Image => ", structured points",
+            Kind::Rectilinear => ", rectilinear grid",
+            Kind::Structured => ", structured grid",
+        };
+        let format = format!("VTK legacy {version}, {encoding}{kind}{}", dims_of(&loaded.dataset));
+        Ok(Loaded::without_time(loaded.dataset, format, loaded.warnings))
     }
 }
 
@@ -59,8 +68,8 @@ fn start_of(bytes: &[u8]) -> Option<usize> {
     head.eq_ignore_ascii_case(MAGIC).then(|| bytes.len() - rest.len())
 }
 
-/// Reads the four lines at the top, up to the kind of dataset, and gives the version.
-fn header(lexer: &mut Lexer<'_>) -> Result<String, IoError> {
+/// Reads the four lines at the top, up to the kind of dataset, and gives the version and the kind.
+fn header(lexer: &mut Lexer<'_>) -> Result<(String, Kind), IoError> {
     let first = lexer.line();
     let version = String::from_utf8_lossy(first).split_ascii_whitespace().last().unwrap_or_default().to_owned();
     let version: String = version.chars().take(20).collect();
@@ -75,13 +84,18 @@ fn header(lexer: &mut Lexer<'_>) -> Result<String, IoError> {
     if word != "DATASET" {
         return Err(lexer.invalid(format!("\"{word}\" stands where DATASET belongs")));
     }
-    let kind = lexer.keyword("the kind of dataset")?;
-    if kind != "UNSTRUCTURED_GRID" {
-        return Err(lexer.source.unsupported(
-            format!("a legacy VTK dataset of the kind {kind}"),
-            "convert it to an unstructured grid with ParaView (Append Datasets, then Save Data as .vtu)",
-        ));
-    }
+    let kind = match lexer.keyword("the kind of dataset")?.as_str() {
+        "UNSTRUCTURED_GRID" => Kind::Unstructured,
+        "STRUCTURED_POINTS" => Kind::Image,
+        "RECTILINEAR_GRID" => Kind::Rectilinear,
+        "STRUCTURED_GRID" => Kind::Structured,
+        other => {
+            return Err(lexer.source.unsupported(
+                format!("a legacy VTK dataset of the kind {other}"),
+                "convert it to an unstructured grid with ParaView (Append Datasets, then Save Data as .vtu)",
+            ));
+        }
+    };
     lexer.line();
-    Ok(version)
+    Ok((version, kind))
 }

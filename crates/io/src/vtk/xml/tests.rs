@@ -22,13 +22,13 @@ fn message(file: &str) -> String {
 
 const XYZ: [f32; 15] = [0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 1.0, 1.0, 1.25];
 
-fn array(kind: &str, name: &str, components: usize, text: &str) -> String {
+pub(super) fn array(kind: &str, name: &str, components: usize, text: &str) -> String {
     format!(
         "<DataArray type=\"{kind}\" Name=\"{name}\" NumberOfComponents=\"{components}\" format=\"ascii\">\n{text}\n</DataArray>\n"
     )
 }
 
-fn cell_arrays(connectivity: &str, offsets: &str, types: &str, more: &str) -> String {
+pub(super) fn cell_arrays(connectivity: &str, offsets: &str, types: &str, more: &str) -> String {
     array("Int64", "connectivity", 1, connectivity)
         + &array("Int32", "offsets", 1, offsets)
         + &array("UInt8", "types", 1, types)
@@ -39,7 +39,7 @@ fn points() -> String {
     array("Float32", "Points", 3, &XYZ.map(|x| x.to_string()).join(" "))
 }
 
-fn piece(cell_count: usize, point_data: &str, cell_data: &str, cells: &str) -> String {
+pub(super) fn piece(cell_count: usize, point_data: &str, cell_data: &str, cells: &str) -> String {
     format!(
         "<Piece NumberOfPoints=\"5\" NumberOfCells=\"{cell_count}\">\n<PointData>{point_data}</PointData>\n\
          <CellData>{cell_data}</CellData>\n<Points>{}</Points>\n<Cells>{cells}</Cells></Piece>\n",
@@ -47,7 +47,7 @@ fn piece(cell_count: usize, point_data: &str, cell_data: &str, cells: &str) -> S
     )
 }
 
-fn file(pieces: &str) -> String {
+pub(super) fn file(pieces: &str) -> String {
     format!(
         "<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"LittleEndian\"><UnstructuredGrid>{pieces}</UnstructuredGrid></VTKFile>\n"
     )
@@ -350,8 +350,8 @@ fn vtu_blocks_may_not_inflate_past_their_size() {
 #[test]
 fn vtu_of_other_types_and_compressors_is_unsupported() {
     for (from, to) in [
-        ("type=\"UnstructuredGrid\"", "type=\"ImageData\""),
-        ("type=\"UnstructuredGrid\"", "type=\"PUnstructuredGrid\""),
+        ("type=\"UnstructuredGrid\"", "type=\"PolyData\""),
+        ("type=\"UnstructuredGrid\"", "type=\"Table\""),
         ("byte_order", "compressor=\"vtkBrotliDataCompressor\" byte_order"),
     ] {
         let error = read("x.vtu", ascii_file().replace(from, to).as_bytes()).unwrap_err();
@@ -368,7 +368,7 @@ fn vtu_text_and_bit_arrays_are_left_out_with_a_warning() {
 
 #[test]
 fn vtu_more_points_than_32_bits_count_is_unsupported() {
-    let source = crate::Source { path: "big.vtu".into(), bytes: Vec::new(), solution: None };
+    let source = crate::Source { path: "big.vtu".into(), bytes: Vec::new(), ..Default::default() };
     let mut builder = super::super::cells::CellBuilder::new(&source);
     assert!(builder.begin_piece("Cells", u32::MAX as usize - 5, 5).is_ok());
     let error = builder.begin_piece("Cells", u32::MAX as usize - 5, 6).unwrap_err();
@@ -396,21 +396,22 @@ pub(in crate::vtk) fn decompress_with_all(block: &[u8], size: usize) {
 /// The lines of the whole file were counted once for each index array of each piece, which took time with the square of their number.
 #[test]
 fn vtu_many_pieces_are_not_looked_through_again_and_again() {
-    super::xml::LOOKED_THROUGH.set(0);
+    super::attributes::LOOKED_THROUGH.set(0);
     good(&file(&two_tets("", "").repeat(200)));
-    assert_eq!(super::xml::LOOKED_THROUGH.get(), 0);
+    assert_eq!(super::attributes::LOOKED_THROUGH.get(), 0);
     let broken = file(&(two_tets("", "").repeat(200) + &two_tets("", "").replace("4 8", "4 8 8")));
     assert!(message(&broken).contains("it has 3 values"));
-    let looked_through = super::xml::LOOKED_THROUGH.get();
+    let looked_through = super::attributes::LOOKED_THROUGH.get();
     assert!(looked_through > 0 && looked_through <= 2 * broken.len(), "{looked_through}");
 }
 
 /// Arrays that are compressed, or that share an offset, come to a stated number of numbers.
 #[test]
 fn vtu_arrays_have_a_limit_together() {
-    let source = crate::Source { path: "a.vtu".into(), bytes: ascii_file().into_bytes(), solution: None };
-    let parsed = super::xml::parse(&source).unwrap();
-    parsed.spend(1 << 20).unwrap();
-    let error = parsed.spend(1).unwrap_err();
+    let source = crate::Source { path: "a.vtu".into(), bytes: ascii_file().into_bytes(), ..Default::default() };
+    let budget = super::super::grids::budget::Budget::new(super::super::grids::budget::Limit::NumbersAByte(16));
+    let parsed = super::elements::parse(&source, super::Kind::Unstructured, &budget).unwrap();
+    parsed.budget.spend(1 << 20, 4).unwrap();
+    let error = parsed.budget.spend(1, 4).unwrap_err();
     assert!(error.contains("16 numbers a byte") && error.contains("limit"), "{error}");
 }

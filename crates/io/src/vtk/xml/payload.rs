@@ -13,8 +13,9 @@ use tetrascope_mesh::ArrayValues;
 
 use super::super::DAMAGED;
 use super::super::scalars::{ByteOrder, ScalarType};
+use super::attributes::line;
 use super::compression::Decompressor;
-use super::xml::{Appended, ArrayElement, VtuFile, line, without_mark};
+use super::file::{Appended, ArrayElement, XmlFile, without_mark};
 use crate::{IoError, Source};
 
 /// Writers differ in whether they pad the end, and in the bits that fill the last character.
@@ -50,13 +51,13 @@ pub(super) fn scalar_type(name: &str) -> Option<ScalarType> {
 /// With the array's name and line: bad words, bad base64, sizes beyond the file, damaged or oversized blocks.
 pub(super) fn decode(
     source: &Source,
-    file: &VtuFile<'_>,
+    file: &XmlFile<'_>,
     array: &ArrayElement<'_>,
     scalar: ScalarType,
     label: &str,
 ) -> Result<ArrayValues, IoError> {
     let invalid = |problem: String| source.invalid(place(source, array, label), problem, DAMAGED);
-    let bytes = match array.format.as_str() {
+    let bytes = match array.format.to_ascii_lowercase().as_str() {
         "ascii" => {
             let mut words = array.text.iter().flat_map(|text| text.split_ascii_whitespace());
             return scalar.parse_words(&mut words, usize::MAX).map_err(|bad| {
@@ -160,7 +161,7 @@ fn too_short(needed: usize, there: usize) -> String {
 }
 
 /// The array's bytes in the file's byte order, without header and compression.
-fn read_bytes<'a>(mut encoded: Encoded<'a>, file: &VtuFile<'_>, scalar: ScalarType) -> Result<Cow<'a, [u8]>, String> {
+fn read_bytes<'a>(mut encoded: Encoded<'a>, file: &XmlFile<'_>, scalar: ScalarType) -> Result<Cow<'a, [u8]>, String> {
     let size = file.header_size;
     let word = |bytes: &[u8]| -> Result<usize, String> {
         let mut wide = [0_u8; 8];
@@ -182,11 +183,11 @@ fn read_bytes<'a>(mut encoded: Encoded<'a>, file: &VtuFile<'_>, scalar: ScalarTy
         if encoded.is_apart(size) {
             encoded.take(size)?;
             let bytes = encoded.take(first)?;
-            return file.spend(first / scalar.size()).map(|()| bytes);
+            return file.budget.spend(first / scalar.size(), scalar.size()).map(|()| bytes);
         }
         let total = first.checked_add(size).ok_or_else(|| format!("{first} bytes are declared"))?;
         let mut bytes = encoded.take(total)?.into_owned();
-        file.spend(first / scalar.size())?;
+        file.budget.spend(first / scalar.size(), scalar.size())?;
         bytes.drain(..size);
         return Ok(Cow::Owned(bytes));
     };
@@ -211,7 +212,7 @@ fn read_bytes<'a>(mut encoded: Encoded<'a>, file: &VtuFile<'_>, scalar: ScalarTy
     let blocks = encoded.take(total)?;
     let declared_of = |number: usize| if number + 1 == stored.len() && last_size != 0 { last_size } else { block_size };
     let inflated = (stored.len() - 1).saturating_mul(block_size).saturating_add(declared_of(stored.len() - 1));
-    file.spend(inflated / scalar.size())?;
+    file.budget.spend(inflated / scalar.size(), scalar.size())?;
     let mut decompressor = Decompressor::new(compressor);
     let mut out = Vec::new();
     let mut at = 0;

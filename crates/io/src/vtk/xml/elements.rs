@@ -1,0 +1,286 @@
+//! The XML around the arrays: which pieces there are, which arrays each has, and where their numbers stand.
+//!
+//! Elements are pulled one after another and nothing recurses, so depth costs one byte a level. Entities other than the
+//! five predefined ones and character references are never expanded.
+
+use quick_xml::events::Event;
+use quick_xml::reader::Reader;
+
+use super::super::DAMAGED;
+use super::super::grids::Lattice;
+use super::super::grids::budget::Budget;
+use super::super::grids::extent::Extent;
+use super::super::scalars::ByteOrder;
+use super::Kind;
+use super::appended::find_appended;
+use super::attributes::{Attributes, line, shorten};
+use super::compression::Compressor;
+use super::file::{ArrayElement, Piece, XmlFile, without_mark};
+use super::steps::{is_piece_a_step, keep_last_listed, last_step};
+use crate::{IoError, Source};
+
+/// What an open element is; all that matters for knowing where an array belongs.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Open {
+    Root,
+    Grid,
+    Piece,
+    PointData,
+    CellData,
+    Points,
+    Cells,
+    Coordinates,
+    FieldData,
+    Array,
+    Other,
+}
+
+/// Lists the arrays of a file of this kind.
+pub(super) fn parse<'a>(source: &'a Source, kind: Kind, budget: &'a Budget) -> Result<XmlFile<'a>, IoError> {
+    let bytes = without_mark(&source.bytes);
+    let mut reader = Reader::from_reader(bytes);
+    // An empty element then looks like one with nothing in it.
+    reader.config_mut().expand_empty_elements = true;
+    let mut file = XmlFile {
+        kind,
+        version: String::new(),
+        byte_order: ByteOrder::Little,
+        header_size: 4,
+        compressor: None,
+        pieces: Vec::new(),
+        appended: None,
+        budget,
+        lattice: Lattice::default(),
+        field_data: Vec::new(),
+        times: Vec::new(),
+        step: 0,
+    };
+    budget.grant(bytes.len());
+    let mut whole_extent = None;
+    let mut open: Vec<Open> = Vec::new();
+    let mut root_seen = false;
+    loop {
+        let start = position(&reader);
+        let event = reader.read_event().map_err(|e| {
+            let at = usize::try_from(reader.error_position()).unwrap_or(start);
+            source.invalid(line(bytes, at), format!("not well-formed XML: {e}"), DAMAGED)
+        })?;
+        match event {
+            Event::Start(element) => {
+                let attributes = Attributes { source, bytes, start, element: &element };
+                let parent = open.last().copied();
+                let this = match (parent, element.name().as_ref()) {
+                    (None, "VTKFile") if !root_seen => {
+                        root_seen = true;
+                        read_root(&attributes, kind, &mut file)?;
+                        Open::Root
+                    }
+                    (None, name) => {
+                        return Err(source.invalid(
+                            line(bytes, start),
+                            format!("the root element is `{}`, not `VTKFile`", shorten(name)),
+                            "name a VTK XML file, or give the file the extension of its format",
+                        ));
+                    }
+                    (Some(Open::Root), name) if name == kind.type_name() => {
+                        whole_extent = read_grid(&attributes, kind, &mut file)?;
+                        Open::Grid
+                    }
+                    (Some(Open::Root), "AppendedData") => {
+                        file.appended = Some(find_appended(&attributes, position(&reader))?);
+                        // The section is not XML: nothing behind this tag may be parsed as such.
+                        break;
+                    }
+                    (Some(Open::Grid), "Piece") => {
+                        file.pieces.push(read_piece(&attributes, kind, whole_extent)?);
+                        Open::Piece
+                    }
+                    (Some(Open::Piece), "PointData") => Open::PointData,
+                    (Some(Open::Piece), "CellData") => Open::CellData,
+                    (Some(Open::Piece), "Points") => Open::Points,
+                    (Some(Open::Piece), "Cells") => Open::Cells,
+                    (Some(Open::Piece), "Coordinates") => Open::Coordinates,
+                    (Some(Open::Root | Open::Grid), "FieldData") => Open::FieldData,
+                    (Some(section), "DataArray" | "Array") => {
+                        let step = file.step;
+                        match arrays_of(&mut file, section) {
+                            Some(arrays) => {
+                                arrays.push(read_array(&attributes, step)?);
+                                Open::Array
+                            }
+                            None => Open::Other,
+                        }
+                    }
+                    _ => Open::Other,
+                };
+                open.push(this);
+            }
+            Event::End(_) => {
+                open.pop();
+            }
+            Event::Text(text) => {
+                if let Some(array) = current_array(&mut file, &open) {
+                    array.text.push(text.into_inner());
+                }
+            }
+            Event::CData(text) => {
+                if let Some(array) = current_array(&mut file, &open) {
+                    array.text.push(text.into_inner());
+                }
+            }
+            Event::GeneralRef(entity) if current_array(&mut file, &open).is_some() => {
+                return Err(source.invalid(
+                    line(bytes, start),
+                    format!("the entity `&{};` stands among numbers; entities are not expanded", shorten(&entity)),
+                    "write the numbers themselves",
+                ));
+            }
+            Event::Eof => {
+                if !root_seen {
+                    return Err(source.invalid(
+                        "start of the file",
+                        if bytes.is_empty() { "the file is empty" } else { "there is no XML element `VTKFile`" },
+                        "name a VTK XML file, or give the file the extension of its format",
+                    ));
+                }
+                if !open.is_empty() {
+                    return Err(source.invalid("end of the file", "the file ends inside an XML element", DAMAGED));
+                }
+                break;
+            }
+            _ => {}
+        }
+    }
+    if is_piece_a_step(&file) {
+        let step = file.pieces.swap_remove(file.step);
+        file.pieces = vec![step];
+    } else if !file.times.is_empty() {
+        for piece in &mut file.pieces {
+            let Piece { point_data, cell_data, points, cells, coordinates, .. } = piece;
+            [point_data, cell_data, points, cells, coordinates].into_iter().for_each(keep_last_listed);
+        }
+    }
+    if file.pieces.is_empty() {
+        let place = format!("element {}", kind.type_name());
+        return Err(source.invalid(place, "it holds no Piece, so there is no mesh", DAMAGED));
+    }
+    Ok(file)
+}
+
+fn position(reader: &Reader<&[u8]>) -> usize {
+    usize::try_from(reader.buffer_position()).unwrap_or(usize::MAX)
+}
+
+fn arrays_of<'f, 'a>(file: &'f mut XmlFile<'a>, section: Open) -> Option<&'f mut Vec<ArrayElement<'a>>> {
+    if section == Open::FieldData {
+        return Some(&mut file.field_data);
+    }
+    let piece = file.pieces.last_mut()?;
+    match section {
+        Open::PointData => Some(&mut piece.point_data),
+        Open::CellData => Some(&mut piece.cell_data),
+        Open::Points => Some(&mut piece.points),
+        Open::Cells => Some(&mut piece.cells),
+        Open::Coordinates => Some(&mut piece.coordinates),
+        _ => None,
+    }
+}
+
+/// The array that text belongs to: only where it stands directly inside, not in the array's information keys.
+fn current_array<'f, 'a>(file: &'f mut XmlFile<'a>, open: &[Open]) -> Option<&'f mut ArrayElement<'a>> {
+    match open {
+        [.., section, Open::Array] => arrays_of(file, *section)?.last_mut(),
+        _ => None,
+    }
+}
+
+fn read_root(attributes: &Attributes<'_, '_>, kind: Kind, file: &mut XmlFile<'_>) -> Result<(), IoError> {
+    let source = attributes.source;
+    let found = attributes.get("type")?.unwrap_or_default();
+    if found.trim() != kind.type_name() {
+        return Err(source.unsupported(
+            format!("a VTK file of the type \"{}\"", shorten(&found)),
+            "convert it to an unstructured grid with ParaView (Append Datasets, then Save Data as .vtu)",
+        ));
+    }
+    file.version = shorten(&attributes.get("version")?.unwrap_or_else(|| "without version".to_owned()));
+    file.byte_order = match attributes.get("byte_order")?.as_deref().map(str::trim) {
+        None | Some("LittleEndian") => ByteOrder::Little,
+        Some("BigEndian") => ByteOrder::Big,
+        Some(other) => return Err(attributes.unknown("byte_order", other, "LittleEndian and BigEndian")),
+    };
+    // Without the attribute the words are of 32 bits, whatever the version says.
+    file.header_size = match attributes.get("header_type")?.as_deref().map(str::trim) {
+        None | Some("UInt32") => 4,
+        Some("UInt64") => 8,
+        Some(other) => return Err(attributes.unknown("header_type", other, "UInt32 and UInt64")),
+    };
+    file.compressor = match attributes.get("compressor")?.as_deref().map(str::trim) {
+        None | Some("") => None,
+        Some(name) => Some(Compressor::named(name).ok_or_else(|| {
+            source.unsupported(
+                format!("the compressor \"{}\"", shorten(name)),
+                "save it with the compressor vtkZLibDataCompressor, or without one",
+            )
+        })?),
+    };
+    Ok(())
+}
+
+/// The attributes of the element around the pieces; gives the whole box of a grid.
+fn read_grid(attributes: &Attributes<'_, '_>, kind: Kind, file: &mut XmlFile<'_>) -> Result<Option<Extent>, IoError> {
+    if let Some(text) = attributes.get("TimeValues")? {
+        let times: Result<Vec<f64>, _> = text.split_ascii_whitespace().map(str::parse).collect();
+        file.times = times.map_err(|_| {
+            let problem = format!("the attribute `TimeValues` is \"{}\", not a list of numbers", shorten(&text));
+            attributes.source.invalid(attributes.place(), problem, DAMAGED)
+        })?;
+        file.step = attributes.source.step(&file.times)?;
+    }
+    if kind == Kind::Unstructured {
+        return Ok(None);
+    }
+    if kind == Kind::Image {
+        let usual = Lattice::default();
+        file.lattice = Lattice {
+            origin: attributes.numbers("Origin")?.unwrap_or(usual.origin),
+            spacing: attributes.numbers("Spacing")?.unwrap_or(usual.spacing),
+            direction: attributes.numbers("Direction")?.unwrap_or(usual.direction),
+        };
+    }
+    // It may be larger than any mesh; what counts are the pieces.
+    Ok(attributes.extent("WholeExtent").ok().flatten())
+}
+
+fn read_piece<'a>(
+    attributes: &Attributes<'_, '_>,
+    kind: Kind,
+    whole_extent: Option<Extent>,
+) -> Result<Piece<'a>, IoError> {
+    if kind == Kind::Unstructured {
+        let (point_count, cell_count) = (attributes.count("NumberOfPoints")?, attributes.count("NumberOfCells")?);
+        return Ok(Piece { point_count, cell_count, ..Piece::default() });
+    }
+    let extent = match attributes.extent("Extent")? {
+        Some(extent) => extent,
+        None => whole_extent.ok_or_else(|| {
+            let problem = "it has no attribute `Extent`, and there is no `WholeExtent` that could stand for it";
+            attributes.source.invalid(attributes.place(), problem, DAMAGED)
+        })?,
+    };
+    let (point_count, cell_count) = (extent.point_count() as u64, extent.cell_count() as u64);
+    Ok(Piece { point_count, cell_count, extent: Some(extent), ..Piece::default() })
+}
+
+fn read_array<'a>(attributes: &Attributes<'_, '_>, step: usize) -> Result<ArrayElement<'a>, IoError> {
+    Ok(ArrayElement {
+        listed: last_step(attributes, step)?,
+        name: attributes.get("Name")?.unwrap_or_default(),
+        type_name: attributes.get("type")?.unwrap_or_default().trim().to_owned(),
+        components: attributes.get("NumberOfComponents")?,
+        format: attributes.get("format")?.unwrap_or_else(|| "ascii".to_owned()).trim().to_owned(),
+        offset: attributes.get("offset")?,
+        text: Vec::new(),
+        position: attributes.start,
+    })
+}
