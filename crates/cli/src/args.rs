@@ -1,11 +1,19 @@
 //! What the command line may say.
 
+mod values;
+
 use std::path::PathBuf;
 
 use clap::{Args, Parser, Subcommand};
 use tetrascope::{
-    Backend, Choice, CycleRemedy, GpuPath, Integration, Interpolation, IsosurfaceSection, LengthAxisName, OpticalModel,
-    OrderMethod, Shading, TableSettings, TargetBits,
+    Backend, Choice, CycleRemedy, GpuPath, Integration, Interpolation, IsosurfaceSection, LengthAxisName, OpacityName,
+    OpticalModel, OrderMethod, Shading,
+};
+
+pub(crate) use values::fraction;
+use values::{
+    Points, color_points, extinction_points, isosurface, length_axis, number, opacity, range, raw_volume, shading,
+    size, table_size, target_bits, vector, wanted_error,
 };
 
 /// Draws unstructured meshes as volumes.
@@ -63,6 +71,9 @@ Examples:
   tetrascope render case.vtu -o case.png
   tetrascope render case.vtu --field Velocity:mag --eye 3,-4,2 --up 0,0,1 --size 1280x720
   tetrascope render grid.xyz solution.q --field Density -o density.png -o density.exr
+  tetrascope render case.e --time 0.5 --cmap plasma --range 300,900 --opacity sigmoid
+  tetrascope render case.foam --field p --cells --cmap my-colors.json
+  tetrascope render neghip.raw --raw 64x64x64:uint8
   tetrascope render case.vtu --color \"0:0,0,1; 0.5:1,1,1; 1:1,0,0\" --extinction \"0:0; 0.4:0; 0.5:9; 0.6:0\"
   tetrascope render case.vtu --isosurface 0.5:1,0.8,0.2 --isosurface 0.8:0.2,0.5,1,0.4 --shading smooth
   tetrascope render case.vtu --write-scene case.toml     keep all numbers, to be edited
@@ -75,6 +86,26 @@ Isosurfaces stand in the volume; --extinction \"0:0\" leaves them alone in the p
 
 Exit codes: 0 good, 1 wrong input or no room, 2 wrong usage, 130 interrupted. Files are written whole or not at all: interrupted, or with
 a full disk, the old ones stay as they were. More memory than the machine has is refused before the work.";
+
+/// What of a mesh file is shown.
+#[derive(Debug, Default, Args)]
+pub(crate) struct MeshArgs {
+    /// Array to show: a name, or NAME:0, NAME:x, NAME:mag of a vector [default: the first scalar point array]
+    #[arg(long, value_name = "NAME")]
+    pub(crate) field: Option<String>,
+    /// Draw a cell array as a constant in each cell, instead of averaging it onto the points
+    #[arg(long)]
+    pub(crate) cells: bool,
+    /// Time step of a file that has several, counted from 0 [default: the last one]
+    #[arg(long, value_name = "N", conflicts_with = "time")]
+    pub(crate) step: Option<usize>,
+    /// The time step nearest to this time
+    #[arg(long, value_name = "T", value_parser = number, allow_hyphen_values = true)]
+    pub(crate) time: Option<f64>,
+    /// Take the file for a raw volume: SIZE:TYPE, as in 64x64x64:uint8 or 64x64x93:int16:big:spacing=3.2,3.2,1.5:skip=512
+    #[arg(long, value_name = "SIZE:TYPE", value_parser = raw_volume)]
+    pub(crate) raw: Option<String>,
+}
 
 /// From where a mesh is seen.
 #[derive(Debug, Default, Args)]
@@ -114,9 +145,8 @@ pub(crate) struct CheckArgs {
     /// A scene file (.toml, .json), a mesh file, or a PLOT3D grid and its solution; builtin:rings is a sample
     #[arg(required = true, num_args = 1..=2, value_name = "INPUT")]
     pub(crate) input: Vec<PathBuf>,
-    /// Array to show: a name, or NAME:0, NAME:x, NAME:mag of a vector [default: the first scalar point array]
-    #[arg(long, value_name = "NAME")]
-    pub(crate) field: Option<String>,
+    #[command(flatten)]
+    pub(crate) mesh: MeshArgs,
     /// An order to judge; may be repeated [default: all but those by pixels, and power where no heights are known]
     #[arg(long, value_name = "NAME")]
     pub(crate) order: Vec<OrderMethod>,
@@ -179,9 +209,8 @@ pub(crate) struct StudyArgs {
     /// Folder for study.html, study.csv, study.json and study.svg; made if it is not there
     #[arg(short, long, value_name = "DIR", default_value = "study")]
     pub(crate) output: PathBuf,
-    /// Array to show: a name, or NAME:0, NAME:x, NAME:mag of a vector [default: the first scalar point array]
-    #[arg(long, value_name = "NAME")]
-    pub(crate) field: Option<String>,
+    #[command(flatten)]
+    pub(crate) mesh: MeshArgs,
     /// Fewer settings, 5 frames each, and a picture of at most 160 pixels a side
     #[arg(long)]
     pub(crate) quick: bool,
@@ -213,9 +242,8 @@ pub(crate) struct SceneArgs {
     /// A scene file (.toml, .json), a mesh file, or a PLOT3D grid and its solution; builtin:rings is a sample
     #[arg(required = true, num_args = 1..=2, value_name = "INPUT")]
     pub(crate) input: Vec<PathBuf>,
-    /// Array to show: a name, or NAME:0, NAME:x, NAME:mag of a vector [default: the first scalar point array]
-    #[arg(long, value_name = "NAME")]
-    pub(crate) field: Option<String>,
+    #[command(flatten)]
+    pub(crate) mesh: MeshArgs,
 
     #[command(flatten)]
     pub(crate) camera: CameraArgs,
@@ -235,6 +263,27 @@ pub(crate) struct SceneArgs {
     /// Extinction control points "scalar:extinction; ..." [default: 0 to 8 over the mesh's diagonal]
     #[arg(long, value_name = "POINTS", value_parser = extinction_points, allow_hyphen_values = true, help_heading = "Picture")]
     pub(crate) extinction: Option<Points<2>>,
+    /// Color map: a name that `tetrascope colormaps` lists, _r at its end turns it round, or a file that ParaView saved (.json, .xml),
+    /// with FILE:NAME for one of several in it [default: viridis]
+    #[arg(long, value_name = "NAME|FILE", conflicts_with = "color", help_heading = "Picture")]
+    pub(crate) cmap: Option<String>,
+    /// Scalars of the ends of color map and opacity; those beyond have what is at the end [default: the field's range]
+    #[arg(long, value_name = "LOW,HIGH", value_parser = range, allow_hyphen_values = true, help_heading = "Picture")]
+    pub(crate) range: Option<[f64; 2]>,
+    /// Opacity by control points "scalar:opacity; ...", 0 to 1, or by a name, over the range: linear, sigmoid, sigmoid_5, geom, foreground
+    /// and others, with _r turned round. The extinction is opacity over --opacity-length
+    #[arg(
+        long,
+        value_name = "NAME|POINTS",
+        value_parser = opacity,
+        allow_hyphen_values = true,
+        conflicts_with = "extinction",
+        help_heading = "Picture"
+    )]
+    pub(crate) opacity: Option<OpacityName>,
+    /// The length that opacity is for, world units: at opacity 1, it takes away 63 % of the light [default: an eighth of the mesh's diagonal]
+    #[arg(long, value_name = "LENGTH", value_parser = number, conflicts_with = "extinction", help_heading = "Picture")]
+    pub(crate) opacity_length: Option<f64>,
     /// Surface of one value in the volume, besides those of the scene: linear RGB and opacity 0 to 1; may be repeated
     /// [default: 0.9,0.9,0.9,1]
     #[arg(
@@ -422,187 +471,5 @@ pub(crate) struct CompareArgs {
     pub(crate) json: bool,
 }
 
-/// A number that is not negative, or a fraction of two: `0.004`, `1e-3`, `1/255`.
-pub(crate) fn fraction(text: &str) -> Result<f64, String> {
-    let number = |part: &str| -> Result<f64, String> {
-        let part = part.trim();
-        part.parse().map_err(|_| format!("\"{part}\" is not a number; give one, or a fraction such as 1/255"))
-    };
-    let value = match text.split_once('/') {
-        Some((above, below)) => number(above)? / number(below)?,
-        None => number(text)?,
-    };
-    if !value.is_finite() {
-        return Err(format!("\"{text}\" is not a finite number"));
-    }
-    if value < 0.0 { Err(format!("\"{text}\" is negative")) } else { Ok(value) }
-}
-
-/// An error that can be wanted: no channel is off by more than 1.
-fn wanted_error(text: &str) -> Result<f64, String> {
-    let error = fraction(text)?;
-    if error > 1.0 { Err(format!("{error} is more than 1; give a number from 0 to 1")) } else { Ok(error) }
-}
-
-/// Control points of `N` numbers each; a type of its own, as a bare `Vec` would be taken for a repeated option.
-#[derive(Clone, Debug, PartialEq)]
-pub(crate) struct Points<const N: usize>(pub(crate) Vec<[f64; N]>);
-
-fn numbers<const N: usize>(text: &str) -> Result<[f64; N], String> {
-    let parts: Vec<&str> = text.split(',').map(str::trim).collect();
-    let mut out = [0.0_f64; N];
-    if parts.len() != N {
-        return Err(format!("\"{text}\" has {} numbers; give {N}, with commas between", parts.len()));
-    }
-    for (slot, part) in out.iter_mut().zip(parts) {
-        *slot = part.parse().map_err(|_| format!("\"{part}\" is not a number"))?;
-        if !slot.is_finite() {
-            return Err(format!("{slot} is not a finite number"));
-        }
-    }
-    Ok(out)
-}
-
-fn vector(text: &str) -> Result<[f64; 3], String> {
-    numbers(text)
-}
-
-fn size(text: &str) -> Result<(u32, u32), String> {
-    let side = |part: &str| part.trim().parse().map_err(|_| format!("\"{text}\" is no size; give 512 or 640x480"));
-    match text.split_once(['x', 'X', '×']) {
-        Some((width, height)) => Ok((side(width)?, side(height)?)),
-        None => side(text).map(|both| (both, both)),
-    }
-}
-
-fn points<const N: usize, const VALUES: usize>(text: &str) -> Result<Points<N>, String> {
-    let entries = text.split(';').map(str::trim).filter(|entry| !entry.is_empty());
-    let parsed: Result<Vec<_>, String> = entries
-        .map(|entry| {
-            let (scalar, values) =
-                entry.split_once(':').ok_or_else(|| format!("\"{entry}\" has no colon behind its scalar"))?;
-            let ([scalar], values) = (numbers::<1>(scalar)?, numbers::<VALUES>(values)?);
-            Ok(std::array::from_fn(|i| if i == 0 { scalar } else { values[i - 1] }))
-        })
-        .collect();
-    match parsed? {
-        list if list.is_empty() => Err("give at least one control point".to_owned()),
-        list => Ok(Points(list)),
-    }
-}
-
-fn color_points(text: &str) -> Result<Points<4>, String> {
-    points::<4, 3>(text)
-}
-
-/// What an isosurface looks like when only its value is given: nearly white, so that every light shows on it.
-const ISOSURFACE_COLOR: [f64; 3] = [0.9; 3];
-
-fn isosurface(text: &str) -> Result<IsosurfaceSection, String> {
-    let Some((value, look)) = text.split_once(':') else {
-        let [value] = numbers(text)?;
-        return Ok(IsosurfaceSection::new(value, ISOSURFACE_COLOR));
-    };
-    let [value] = numbers(value)?;
-    match look.split(',').count() {
-        3 => Ok(IsosurfaceSection::new(value, numbers(look)?)),
-        4 => {
-            let [r, g, b, opacity] = numbers(look)?;
-            Ok(IsosurfaceSection { opacity, ..IsosurfaceSection::new(value, [r, g, b]) })
-        }
-        other => Err(format!("\"{look}\" has {other} numbers; give red, green, blue, and an opacity if it is not 1")),
-    }
-}
-
-fn shading(name: &str) -> Result<Shading, String> {
-    match name {
-        "none" => Ok(Shading::None),
-        "flat" => Ok(Shading::Flat),
-        "smooth" => Ok(Shading::Smooth),
-        _ => Err("there are none, flat and smooth".to_owned()),
-    }
-}
-
-fn length_axis(name: &str) -> Result<LengthAxisName, String> {
-    match name {
-        "linear" => Ok(LengthAxisName::Linear),
-        "logarithmic" => Ok(LengthAxisName::Logarithmic),
-        _ => Err("there are linear and logarithmic".to_owned()),
-    }
-}
-
-fn target_bits(text: &str) -> Result<u32, String> {
-    let bits = text.parse().ok().filter(|&bits| TargetBits::of(bits).is_some());
-    bits.ok_or_else(|| "there are targets of 16 and 32 bits".to_owned())
-}
-
-fn table_size() -> clap::builder::RangedI64ValueParser<u32> {
-    clap::value_parser!(u32).range(i64::from(TableSettings::LEAST)..=i64::from(TableSettings::MOST))
-}
-
-fn extinction_points(text: &str) -> Result<Points<2>, String> {
-    points::<2, 1>(text)
-}
-
 #[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn the_commands_are_consistent() {
-        use clap::CommandFactory;
-        Cli::command().debug_assert();
-    }
-
-    #[test]
-    fn control_points() {
-        let Points(color) = color_points("0: 0,0.5,1 ;-1e3:1,1,1;").unwrap();
-        assert_eq!(color, [[0.0, 0.0, 0.5, 1.0], [-1000.0, 1.0, 1.0, 1.0]]);
-        assert_eq!(extinction_points("2:3").unwrap().0, [[2.0, 3.0]]);
-        for wrong in ["", ";", "1", "1:2,3", "a:1", "1:nan", "1:2:3"] {
-            assert!(extinction_points(wrong).is_err(), "{wrong}");
-        }
-    }
-
-    #[test]
-    fn fractions() {
-        for (text, value) in [("1/255", 1.0 / 255.0), ("0", 0.0), ("1e-3", 1e-3), (" 3 / 4 ", 0.75), ("0/5", 0.0)] {
-            assert_eq!(fraction(text), Ok(value), "{text}");
-        }
-        for wrong in ["", "/", "1/", "/2", "1/0", "0/0", "-1", "1/-2", "nan", "inf", "1/2/3", "a", "1 2"] {
-            assert!(fraction(wrong).is_err(), "{wrong}");
-        }
-    }
-
-    #[test]
-    fn sizes() {
-        assert_eq!(size("512"), Ok((512, 512)));
-        assert_eq!(size("640x480"), Ok((640, 480)));
-        for wrong in ["", "x", "640x", "-5", "1.5", "640x480x3"] {
-            assert!(size(wrong).is_err(), "{wrong}");
-        }
-    }
-
-    #[test]
-    fn isosurfaces() {
-        let plain = isosurface("-0.5").unwrap();
-        assert_eq!(plain, IsosurfaceSection::new(-0.5, [0.9, 0.9, 0.9]));
-        assert_eq!((plain.opacity, plain.shading), (1.0, Shading::None));
-        assert_eq!(isosurface("2: 1,0.5,0").unwrap(), IsosurfaceSection::new(2.0, [1.0, 0.5, 0.0]));
-        let glass = isosurface("2:1,0.5,0,0.25").unwrap();
-        assert_eq!((glass.color, glass.opacity, glass.back_color), ([1.0, 0.5, 0.0], 0.25, None));
-        for wrong in ["", "a", "nan", "1:", "1:1", "1:1,2", "1:1,2,3,4,5", "1:1,2,x", "1:1:1", "1,2"] {
-            assert!(isosurface(wrong).is_err(), "{wrong}");
-        }
-    }
-
-    #[test]
-    fn negative_numbers_are_values() {
-        let negative = ["--eye", "-1,-2,3", "--extinction", "-1:0;1:2", "--isosurface", "-1:1,1,1"];
-        let cli = Cli::try_parse_from([&["tetrascope", "render", "a.vtu"], &negative[..]].concat());
-        let Some(Command::Render(args)) = cli.unwrap().command else { panic!("not render") };
-        assert_eq!(args.scene.camera.eye, Some([-1.0, -2.0, 3.0]));
-        assert_eq!(args.scene.extinction, Some(Points(vec![[-1.0, 0.0], [1.0, 2.0]])));
-        assert_eq!(args.scene.isosurface[0].value, -1.0);
-    }
-}
+mod tests;

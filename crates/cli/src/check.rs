@@ -6,16 +6,17 @@ use std::path::{Path, PathBuf};
 
 use serde_json::{Value, json};
 use tetrascope::{
-    Backend, Choice, CycleRemedy, OrderCheck, OrderMethod, PixelDifference, Plan, ProjectionName, ReadOptions,
-    SceneFile, Volume, VolumeField, resolve_path, seen_pixels, write_png,
+    Backend, Choice, CycleRemedy, OrderCheck, OrderMethod, PixelDifference, Plan, ProjectionName, SceneFile, Volume,
+    VolumeField, seen_pixels, write_png,
 };
 
 use crate::Failure;
 use crate::args::CheckArgs;
 use crate::interrupt;
 use crate::progress::Bar;
-use crate::render::{check_target, scene_as_seen, wrong_scene};
+use crate::render::{check_target, wrong_scene};
 use crate::report::{line, object, warning};
+use crate::scene_of::scene_as_seen;
 use crate::scene_paths::is_scene;
 
 /// What is judged when nothing is said. `power` joins them where heights are known.
@@ -44,7 +45,7 @@ pub(crate) fn run(args: &CheckArgs) -> Result<(), Failure> {
 
 /// Judges everything, telling each part as soon as it is known; gives the same for machines.
 fn check(args: &CheckArgs, bar: &Bar) -> Result<Value, Failure> {
-    let (mut scene, base_dir) = scene_as_seen(&args.input, args.field.as_ref(), &args.camera, args.size)?;
+    let (mut scene, base_dir) = scene_as_seen(&args.input, &args.mesh, &args.camera, args.size)?;
     // Orders are what is judged: the scene's own, and what goes with it, is not looked at.
     scene.quality.replace_backend(Choice::Named(Backend::Cpu));
     scene.quality.order = Choice::Auto;
@@ -52,10 +53,8 @@ fn check(args: &CheckArgs, bar: &Bar) -> Result<Value, Failure> {
         (None, None, None, None);
 
     bar.step("reading and cutting into tetrahedra");
-    let solution = scene.mesh.solution.as_ref().map(|path| resolve_path(&base_dir, path));
-    let volume =
-        Volume::load(&resolve_path(&base_dir, &scene.mesh.path), &ReadOptions::with_solution(solution.as_deref()))?;
-    let field = volume.field(scene.mesh.field.as_deref())?;
+    let volume = Volume::of_section(&scene.mesh, &base_dir)?;
+    let field = volume.field_of_section(&scene.mesh)?;
     interrupt::go_on()?;
     bar.step("looking at the mesh");
     let solves = args.heights || args.order.contains(&OrderMethod::Power);

@@ -15,6 +15,7 @@ mod progress;
 mod render;
 mod report;
 mod sample;
+mod scene_of;
 mod scene_paths;
 mod study;
 

@@ -3,14 +3,15 @@
 mod rows;
 
 use serde_json::{Value, json};
-use tetrascope::{ReadOptions, Volume, foresee_blank, resolve_path};
+use tetrascope::{Volume, foresee_blank};
 
 use crate::Failure;
 use crate::args::PlanArgs;
 use crate::interrupt;
 use crate::progress::Bar;
-use crate::render::{scene_of, wrong_scene};
+use crate::render::wrong_scene;
 use crate::report::{line, object, warning};
+use crate::scene_of::scene_of;
 use rows::{Row, Said};
 
 pub(crate) fn run(args: &PlanArgs) -> Result<(), Failure> {
@@ -34,11 +35,9 @@ fn plan(args: &PlanArgs, bar: &Bar) -> Result<Said, Failure> {
     let (scene, base_dir) = scene_of(&args.scene)?;
     let threads = args.scene.threads.map(usize::from);
     bar.step("reading and cutting into tetrahedra");
-    let solution = scene.mesh.solution.as_ref().map(|path| resolve_path(&base_dir, path));
-    let volume =
-        Volume::load(&resolve_path(&base_dir, &scene.mesh.path), &ReadOptions::with_solution(solution.as_deref()))?;
+    let volume = Volume::of_section(&scene.mesh, &base_dir)?;
     interrupt::go_on()?;
-    let field = volume.field(scene.mesh.field.as_deref())?;
+    let field = volume.field_of_section(&scene.mesh)?;
     bar.step("choosing methods");
     let wrong = |error: tetrascope::Error| wrong_scene(args.scene.file(), error);
     let mut completed = scene.complete(&field.facts).map_err(|error| wrong(error.into()))?;

@@ -4,18 +4,18 @@ use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
 use tetrascope::{
-    CameraSection, Choice, Completed, ErrorFigures, GpuPath, IsosurfaceSection, Plan, ProjectionName, ReadOptions,
-    Rendered, SceneFile, Volume, VolumeField, check_writable, explain_blank, is_blank, resolve_path,
+    Completed, ErrorFigures, Plan, Rendered, SceneFile, Volume, VolumeField, check_writable, explain_blank, is_blank,
     warn_of_non_finite, write_image,
 };
 
 use crate::Failure;
-use crate::args::{CameraArgs, RenderArgs, SceneArgs};
+use crate::args::RenderArgs;
 use crate::compare::write_difference;
 use crate::interrupt;
 use crate::progress::Bar;
 use crate::report::Report;
-use crate::scene_paths::{self, folder_of, is_scene};
+use crate::scene_of::scene_of;
+use crate::scene_paths::{self, folder_of};
 
 /// Where a picture goes when nothing is said.
 pub(crate) const DEFAULT_OUTPUT: &str = "tetrascope.png";
@@ -83,16 +83,13 @@ impl Job<'_> {
 
     fn make(&self, bar: &Bar, report: &mut Report) -> Result<(), Failure> {
         bar.step("reading and cutting into tetrahedra");
-        let mesh = &self.scene.mesh;
-        let solution = mesh.solution.as_ref().map(|path| resolve_path(&self.base_dir, path));
-        let volume =
-            Volume::load(&resolve_path(&self.base_dir, &mesh.path), &ReadOptions::with_solution(solution.as_deref()))?;
+        let volume = Volume::of_section(&self.scene.mesh, &self.base_dir)?;
         bar.clear();
         interrupt::go_on()?;
         report.volume(&volume);
 
         let start = Instant::now();
-        let field = volume.field(mesh.field.as_deref())?;
+        let field = volume.field_of_section(&self.scene.mesh)?;
         report.field(&field, start.elapsed());
 
         bar.step("choosing methods");
@@ -222,122 +219,6 @@ pub(crate) fn wrong_scene(scene_path: Option<&Path>, error: tetrascope::Error) -
         (Some(path), tetrascope::Error::Scene(error)) => Failure::Input(format!("{}: {error}", path.display())),
         (_, error) => error.into(),
     }
-}
-
-/// The scene of inputs and options, and the folder that its paths are relative to.
-pub(crate) fn scene_of(args: &SceneArgs) -> Result<(SceneFile, PathBuf), Failure> {
-    let (mut scene, base_dir) = scene_of_inputs(&args.input)?;
-    override_by_options(&mut scene, args);
-    Ok((scene, base_dir))
-}
-
-impl SceneArgs {
-    /// The scene file, for messages; `None` where the input is a mesh.
-    pub(crate) fn file(&self) -> Option<&Path> {
-        self.input.first().map(PathBuf::as_path).filter(|path| is_scene(path))
-    }
-}
-
-/// A scene file with its folder, or a scene of nothing but a mesh.
-fn scene_of_inputs(inputs: &[PathBuf]) -> Result<(SceneFile, PathBuf), Failure> {
-    match inputs {
-        [scene] if is_scene(scene) => Ok((scene_paths::read(scene)?, folder_of(scene).to_owned())),
-        [mesh] => Ok((SceneFile::of_mesh(mesh), PathBuf::new())),
-        [grid, solution] if !is_scene(grid) && !is_scene(solution) => {
-            let mut scene = SceneFile::of_mesh(grid);
-            scene.mesh.solution = Some(solution.clone());
-            Ok((scene, PathBuf::new()))
-        }
-        _ => Err(Failure::Usage(
-            "a scene file names its mesh itself: give one scene, one mesh, or a PLOT3D grid and its solution"
-                .to_owned(),
-        )),
-    }
-}
-
-/// The same with the field, the camera and the size that options say.
-pub(crate) fn scene_as_seen(
-    inputs: &[PathBuf],
-    field: Option<&String>,
-    camera: &CameraArgs,
-    size: Option<(u32, u32)>,
-) -> Result<(SceneFile, PathBuf), Failure> {
-    let (mut scene, base_dir) = scene_of_inputs(inputs)?;
-    set_some(&mut scene.mesh.field, field);
-    override_camera(&mut scene.camera, camera);
-    if let Some((width, height)) = size {
-        (scene.image.width, scene.image.height) = (width, height);
-    }
-    Ok((scene, base_dir))
-}
-
-fn set_some<T: Clone>(slot: &mut Option<T>, value: Option<&T>) {
-    if value.is_some() {
-        *slot = value.cloned();
-    }
-}
-
-fn override_camera(camera: &mut CameraSection, args: &CameraArgs) {
-    set_some(&mut camera.eye, args.eye.as_ref());
-    set_some(&mut camera.target, args.target.as_ref());
-    set_some(&mut camera.up, args.up.as_ref());
-    if args.fov.is_some() {
-        (camera.projection, camera.fov_y, camera.height) = (ProjectionName::Perspective, args.fov, None);
-    }
-    if args.orthographic.is_some() {
-        (camera.projection, camera.fov_y, camera.height) = (ProjectionName::Orthographic, None, args.orthographic);
-    }
-}
-
-fn override_by_options(scene: &mut SceneFile, args: &SceneArgs) {
-    fn set<T: Clone>(slot: &mut T, value: Option<&T>) {
-        if let Some(value) = value {
-            slot.clone_from(value);
-        }
-    }
-    set_some(&mut scene.mesh.field, args.field.as_ref());
-    override_camera(&mut scene.camera, &args.camera);
-    if let Some((width, height)) = args.size {
-        (scene.image.width, scene.image.height) = (width, height);
-    }
-    set(&mut scene.image.background, args.background.as_ref());
-    set(&mut scene.optics.model, args.model.as_ref());
-    set_some(&mut scene.transfer.color, args.color.as_ref().map(|points| &points.0));
-    set_some(&mut scene.transfer.extinction, args.extinction.as_ref().map(|points| &points.0));
-    let shading = args.shading.unwrap_or_default();
-    scene.isosurface.extend(args.isosurface.iter().map(|added| IsosurfaceSection { shading, ..added.clone() }));
-    let quality = &mut scene.quality;
-    if args.integration.is_some_and(|asked| asked != quality.integration) {
-        // The scene file's table belongs to the integration that is replaced.
-        (quality.table_size, quality.table_lengths, quality.length_axis) = (None, None, None);
-    }
-    set(&mut quality.integration, args.integration.as_ref());
-    set(&mut quality.interpolation, args.interpolation.as_ref());
-    if args.table_size.is_some() {
-        // One size for all axes, whatever the scene file has for the lengths.
-        (quality.table_size, quality.table_lengths) = (args.table_size, None);
-    }
-    set_some(&mut quality.length_axis, args.length_axis.as_ref());
-    if let Some(order) = args.order {
-        quality.replace_order(order);
-    }
-    set_some(&mut quality.slabs, args.slabs.as_ref());
-    set_some(&mut quality.window, args.window.as_ref());
-    set_some(&mut quality.cycles, args.cycles.as_ref());
-    if args.keep_heights {
-        quality.keep_heights = Some(true);
-    }
-    set_some(&mut quality.max_error, args.max_error.as_ref());
-    if let Some(backend) = args.backend {
-        quality.replace_backend(backend);
-    }
-    set_some(&mut quality.gpu_path, args.gpu_path.as_ref());
-    if args.gpu_path == Some(Choice::Named(GpuPath::Compute)) {
-        // It has no target; what the scene file has for the other path is no mistake.
-        quality.target_bits = None;
-    }
-    set_some(&mut quality.target_bits, args.target_bits.as_ref());
-    set_some(&mut quality.adapter, args.adapter.as_ref());
 }
 
 /// Refuses a target of the wrong kind, in a folder that is not there, or in one that takes no file.

@@ -71,7 +71,7 @@ impl Report {
             "field",
             json!({ "name": field.field.name, "association": field.field.association.to_string(),
                 "range": [low, high], "notes": field.field.notes,
-                "non_finite_points": field.on_mesh.non_finite_points, "left_out": field.on_mesh.left_out }),
+                "non_finite_values": field.on_mesh.non_finite, "left_out": field.on_mesh.left_out }),
         );
         self.timings.push(("field".to_owned(), time));
         for text in field.field.warnings.iter().chain(&field.on_mesh.warning()) {

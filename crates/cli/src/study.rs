@@ -3,18 +3,16 @@
 use std::path::{Path, PathBuf};
 
 use serde_json::{Value, json};
-use tetrascope::{
-    Backend, Choice, Plan, ReadOptions, SceneFile, Volume, VolumeField, check_writable, foresee_blank, make_folder,
-    resolve_path,
-};
+use tetrascope::{Backend, Choice, Plan, SceneFile, Volume, VolumeField, check_writable, foresee_blank, make_folder};
 use tetrascope_study::{Figure, Options, Outcome, Study, bytes_text, error_text, ms_text, percent_text};
 
 use crate::Failure;
 use crate::args::StudyArgs;
 use crate::interrupt;
 use crate::progress::Bar;
-use crate::render::{scene_as_seen, wrong_scene};
+use crate::render::wrong_scene;
 use crate::report::{line, object, warning};
+use crate::scene_of::scene_as_seen;
 use crate::scene_paths::is_scene;
 
 pub(crate) fn run(args: &StudyArgs) -> Result<(), Failure> {
@@ -58,13 +56,11 @@ fn failure(error: tetrascope_study::Error) -> Failure {
 }
 
 fn study(args: &StudyArgs, bar: &Bar) -> Result<Study, Failure> {
-    let (scene, base_dir) = scene_as_seen(&args.input, args.field.as_ref(), &args.camera, args.size)?;
+    let (scene, base_dir) = scene_as_seen(&args.input, &args.mesh, &args.camera, args.size)?;
 
     bar.step("reading and cutting into tetrahedra");
-    let solution = scene.mesh.solution.as_ref().map(|path| resolve_path(&base_dir, path));
-    let volume =
-        Volume::load(&resolve_path(&base_dir, &scene.mesh.path), &ReadOptions::with_solution(solution.as_deref()))?;
-    let field = volume.field(scene.mesh.field.as_deref())?;
+    let volume = Volume::of_section(&scene.mesh, &base_dir)?;
+    let field = volume.field_of_section(&scene.mesh)?;
     bar.clear();
     interrupt::go_on()?;
     let findings = volume.decomposition.counts.findings();

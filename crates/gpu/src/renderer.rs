@@ -29,6 +29,10 @@ pub struct GpuRenderer {
     pub(crate) frame: MeshFrame,
     pub(crate) positions: Vec<DVec3>,
     pub(crate) tetrahedra: Vec<[VertexId; 4]>,
+    /// The same over points that neighbors share, where they do not.
+    joined: Option<Vec<[VertexId; 4]>>,
+    /// Points that are there once; others follow.
+    joined_points: usize,
     /// In the renderer's unit.
     pub(crate) scalars: Vec<f64>,
     pub(crate) field: FieldNumbers,
@@ -77,6 +81,8 @@ impl GpuRenderer {
         Ok(Self {
             frame: mesh.frame(),
             positions: mesh.positions().to_vec(),
+            joined: mesh.has_points_of_cells().then(|| mesh.joined_tetrahedra()),
+            joined_points: mesh.joined_positions().len(),
             tetrahedra: lattice.cells.iter().map(|cell| bare(cell).map(VertexId)).collect(),
             scalars: scalars.iter().map(|scalar| scalar * field.scalar_factor).collect(),
             field,
@@ -151,7 +157,10 @@ impl GpuRenderer {
 
     /// The mesh as visibility orders see it.
     pub(crate) fn cells(&self) -> Cells<'_> {
-        Cells { positions: &self.positions, tetrahedra: &self.tetrahedra }
+        Cells {
+            positions: &self.positions[..self.joined_points],
+            tetrahedra: self.joined.as_ref().unwrap_or(&self.tetrahedra),
+        }
     }
 
     /// Lengths of segments, world length; computed when first asked for. `None` if no cell has a volume.

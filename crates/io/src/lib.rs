@@ -49,7 +49,7 @@ mod vtkhdf;
 pub use bytes::ByteOrder;
 pub use error::IoError;
 pub use heights::{read_heights, write_heights};
-pub use open::{file_length, read_mesh, readers};
+pub use open::{file_length, read_mesh, read_small_file, readers};
 pub use picture::{
     PictureFile, PngImage, check_writable, encode_png, end_writing, make_folder, read_exr, read_picture, read_png,
     write_bytes, write_exr, write_files, write_image, write_png,

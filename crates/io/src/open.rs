@@ -117,6 +117,25 @@ pub fn file_length(path: &Path) -> u64 {
     std::fs::metadata(path).map_or(0, |metadata| metadata.len())
 }
 
+/// All bytes of a file that holds no mesh and is small by its nature: a color map, say.
+///
+/// - `most`: bytes that it may have
+///
+/// # Errors
+/// [`IoError::Read`] when the system does not give the file, [`IoError::Unsupported`] for a folder, a device or one that is too large,
+/// [`IoError::Invalid`] for one that is empty.
+pub fn read_small_file(path: &Path, most: u64) -> Result<Vec<u8>, IoError> {
+    let length = file_length(path);
+    if length > most {
+        return Err(IoError::Unsupported {
+            path: path.to_owned(),
+            what: format!("reading {length} bytes where at most {most} are expected"),
+            remedy: "check the path; it seems to be another file".to_owned(),
+        });
+    }
+    read_whole(path)
+}
+
 /// All bytes of a regular file that is not empty.
 pub(crate) fn read_whole(path: &Path) -> Result<Vec<u8>, IoError> {
     let failed = |source| IoError::Read { path: path.to_owned(), source };

@@ -174,5 +174,9 @@ fn assemble(
     if tetrahedra.is_empty() {
         return Err(MeshError::NoVolume { tetrahedra: counts.tetrahedra });
     }
-    Ok(Decomposition { mesh: TetMesh { frame, positions, tetrahedra, source_cells }, added_points, counts })
+    Ok(Decomposition {
+        mesh: TetMesh { frame, positions, tetrahedra, source_cells, originals: Vec::new() },
+        added_points,
+        counts,
+    })
 }

@@ -40,6 +40,7 @@ mod frame;
 mod gradient;
 mod ids;
 mod orientation;
+mod points_of_cells;
 mod renderer_units;
 mod sample;
 mod tet_mesh;

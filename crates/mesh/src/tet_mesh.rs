@@ -19,6 +19,8 @@ pub struct TetMesh {
     pub(crate) positions: Vec<DVec3>,
     pub(crate) tetrahedra: Vec<[VertexId; 4]>,
     pub(crate) source_cells: Vec<u32>,
+    /// The last so many points lie where these do; see [`TetMesh::with_points_of_cells`].
+    pub(crate) originals: Vec<VertexId>,
 }
 
 impl TetMesh {
@@ -96,6 +98,7 @@ impl TetMesh {
             positions: self.positions.clone(),
             tetrahedra: kept.iter().map(|&cell| self.tetrahedra[cell]).collect(),
             source_cells: kept.iter().map(|&cell| self.source_cells[cell]).collect(),
+            originals: self.originals.clone(),
         }
     }
 

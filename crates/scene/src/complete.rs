@@ -2,6 +2,7 @@
 
 mod quality;
 mod surfaces;
+mod transfer;
 
 use glam::DVec3;
 use tetrascope_integrate::{Integration, TableSettings};
@@ -17,6 +18,7 @@ use quality::{
     name_tables,
 };
 use surfaces::{fill_isosurfaces, fill_light};
+use transfer::fill_transfer;
 
 /// The largest error wanted in a channel when a scene does not say: one step of 8 bits.
 pub const MAX_ERROR: f64 = 0.00392;
@@ -164,7 +166,7 @@ impl SceneFile {
         let mut file = self.clone();
         let (mut decisions, mut warnings) = (Vec::new(), Vec::new());
         let camera = fill_camera(&mut file, facts, &mut decisions, &mut warnings)?;
-        let (color, extinction) = fill_transfer(&mut file, facts, &mut decisions, &mut warnings);
+        let (color, extinction) = fill_transfer(&mut file.transfer, facts, &mut decisions, &mut warnings)?;
         let isosurfaces = fill_isosurfaces(&mut file, facts, &mut warnings);
         let lighting = fill_light(&mut file, &mut warnings);
         let isosurface_method = fill_isosurface_method(&mut file, &mut warnings);
@@ -221,13 +223,6 @@ impl SceneFile {
         if let Some(first) = self.surface.first() {
             let key = format!("[[surface]] (path = \"{}\")", first.path.display());
             return not_supported(&key, "opaque geometry inside the volume", "remove the section");
-        }
-        if self.transfer.preset.is_some() {
-            return not_supported(
-                "transfer.preset",
-                "color maps from files",
-                "give transfer.color and transfer.extinction",
-            );
         }
         Ok(())
     }
@@ -287,49 +282,4 @@ fn fill_camera(
         ));
     }
     Ok(Camera { eye, target, up, projection })
-}
-
-type ControlPoints = (Vec<[f64; 4]>, Vec<[f64; 2]>);
-
-fn fill_transfer(
-    file: &mut SceneFile,
-    facts: &MeshFacts,
-    decisions: &mut Vec<Decision>,
-    warnings: &mut Vec<String>,
-) -> ControlPoints {
-    let (low, high) = facts.scalar_range;
-    let section = &mut file.transfer;
-    let constant = low >= high;
-    if section.color.is_none() {
-        let range = format!("viridis over {} to {}", short(low), short(high));
-        let (choice, reason) = if constant {
-            ("one color of viridis".to_owned(), "the field is constant")
-        } else {
-            (range, "the field's range")
-        };
-        decisions.push(Decision::new("color", choice, reason));
-    }
-    if section.extinction.is_none() {
-        let highest = defaults::extinction(facts).last().map_or(0.0, |point| point[1]);
-        let choice = if constant {
-            format!("{} everywhere", short(highest))
-        } else {
-            format!("0 at {} to {} at {}", short(low), short(highest), short(high))
-        };
-        let reason = if constant {
-            "4 over the mesh's diagonal; the field is constant"
-        } else {
-            "8 over the mesh's diagonal at the highest scalar"
-        };
-        decisions.push(Decision::new("extinction", choice, reason));
-        if constant {
-            warnings.push(format!(
-                "the field is {} everywhere: the picture shows the mesh's shape and nothing else",
-                short(low)
-            ));
-        }
-    }
-    let color = section.color.get_or_insert_with(|| defaults::color((low, high))).clone();
-    let extinction = section.extinction.get_or_insert_with(|| defaults::extinction(facts)).clone();
-    (color, extinction)
 }

@@ -5,6 +5,8 @@
 //! of the same mesh in meters.
 
 use glam::DVec3;
+#[cfg(feature = "file")]
+use tetrascope_colors::{ColorMap, HALF_GRAY_LEVEL};
 
 use crate::MeshFacts;
 
@@ -13,10 +15,6 @@ pub const FOV_Y_DEGREES: f64 = 30.0;
 
 /// Optical depth of a ray as long as the diagonal of the bounding box where the scalar is highest.
 pub const DIAGONAL_DEPTH: f64 = 8.0;
-
-/// Control points of the default color: a colormap in linear light needs more points than in sRGB to look the same between
-/// them. With 33 the largest difference from the map itself is below 3 of 255 in sRGB (test `viridis_is_close`).
-const COLOR_POINTS: u32 = 33;
 
 /// Where a camera stands and how it looks when a scene leaves it open.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -56,33 +54,45 @@ pub fn up_for(sight: DVec3) -> DVec3 {
     }
 }
 
-/// Viridis over the field's range, linear RGB. A constant field gets one color.
+/// The color map that stands where a scene names none.
+pub const COLOR_MAP: &str = "viridis";
+
+/// The default color map over a range of the field, linear RGB, within half a gray level. A constant field gets one color.
+#[cfg(feature = "file")]
 pub fn color(range: (f64, f64)) -> Vec<[f64; 4]> {
-    let (low, high) = range;
-    if low >= high {
-        let [r, g, b] = viridis(0.5);
-        return vec![[low, r, g, b]];
-    }
-    let mut points = Vec::with_capacity(COLOR_POINTS as usize);
-    let mut last = f64::NEG_INFINITY;
-    for i in 0..COLOR_POINTS {
-        let t = f64::from(i) / f64::from(COLOR_POINTS - 1);
-        let scalar = if i + 1 == COLOR_POINTS { high } else { (low * (1.0 - t) + high * t).clamp(low, high) };
-        // A range of a few units in the last place has fewer floats than points.
-        if scalar > last {
-            let [r, g, b] = viridis(t);
-            points.push([scalar, r, g, b]);
-            last = scalar;
+    ColorMap::named(COLOR_MAP).map(|map| color_of(&map, range)).unwrap_or_default()
+}
+
+/// A color map over a range of the field, linear RGB, within half a gray level.
+#[cfg(feature = "file")]
+pub(crate) fn color_of(map: &ColorMap, (low, high): (f64, f64)) -> Vec<[f64; 4]> {
+    let mut points = map.linear_points(low, high, HALF_GRAY_LEVEL);
+    keep_ends_of_steps(&mut points);
+    points
+}
+
+/// A range of a few units in the last place has fewer floats than points: of those at one scalar the first and the last stay, a step.
+#[cfg(feature = "file")]
+pub(crate) fn keep_ends_of_steps<const N: usize>(points: &mut Vec<[f64; N]>) {
+    let mut kept: Vec<[f64; N]> = Vec::with_capacity(points.len());
+    for point in points.drain(..) {
+        match kept.as_mut_slice() {
+            [.., before, last] if before[0] == point[0] && last[0] == point[0] => *last = point,
+            _ => kept.push(point),
         }
     }
-    points
+    *points = kept;
 }
 
 /// Extinction from 0 at the lowest scalar to [`DIAGONAL_DEPTH`] over the diagonal at the highest; of a constant field half
 /// of that everywhere. Per world unit of length.
 pub fn extinction(facts: &MeshFacts) -> Vec<[f64; 2]> {
+    extinction_over(facts.scalar_range, facts)
+}
+
+/// The same over another range.
+pub(crate) fn extinction_over((low, high): (f64, f64), facts: &MeshFacts) -> Vec<[f64; 2]> {
     let highest = DIAGONAL_DEPTH / facts.diagonal();
-    let (low, high) = facts.scalar_range;
     if low >= high { vec![[low, highest / 2.0]] } else { vec![[low, 0.0], [high, highest]] }
 }
 
@@ -92,15 +102,4 @@ fn smaller_side(width: u32, height: u32) -> f64 {
 
 fn sphere_radius(facts: &MeshFacts) -> f64 {
     facts.diagonal() / 2.0
-}
-
-/// The colormap in linear light; `t` from 0 to 1.
-fn viridis(t: f64) -> [f64; 3] {
-    let color = colorous::VIRIDIS.eval_continuous(t);
-    [color.r, color.g, color.b].map(|byte| linear_from_srgb(f64::from(byte) / 255.0))
-}
-
-/// IEC 61966-2-1, from encoded to linear light; 0 to 1.
-pub(crate) fn linear_from_srgb(encoded: f64) -> f64 {
-    if encoded <= 0.040_45 { encoded / 12.92 } else { ((encoded + 0.055) / 1.055).powf(2.4) }
 }

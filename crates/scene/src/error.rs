@@ -1,5 +1,7 @@
 //! Why a scene cannot be drawn.
 
+#[cfg(feature = "file")]
+use tetrascope_colors::ColorError;
 use tetrascope_integrate::{IsosurfaceError, MethodError, TransferFunctionError};
 use tetrascope_view::ViewError;
 
@@ -38,6 +40,21 @@ pub enum SceneError {
         problem: String,
         /// What to do instead.
         remedy: &'static str,
+    },
+    /// A color map or an opacity curve that is not there.
+    #[cfg(feature = "file")]
+    #[error("{key}: {error}")]
+    Color {
+        /// The key, with its section.
+        key: &'static str,
+        /// Why.
+        error: ColorError,
+    },
+    /// A preset is a file, which a scene does not open.
+    #[error("transfer.preset (path = \"{}\") was not read; read it into the scene first", path.display())]
+    PresetNotRead {
+        /// The file.
+        path: std::path::PathBuf,
     },
     /// The camera or the picture's size.
     #[error("{}: {}", key_of_view(.0), .0)]

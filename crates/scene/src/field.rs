@@ -42,7 +42,9 @@ pub struct Field {
     pub name: String,
     /// What the array that it comes from belongs to.
     pub association: Association,
-    /// One value a point of the dataset; may hold NaN and infinities.
+    /// Whether it is one constant a cell, and not a value a point.
+    pub is_per_cell: bool,
+    /// One value a point of the dataset, or a cell where it is constant in each; may hold NaN and infinities.
     pub values: Vec<f64>,
     /// How the choice was made, where the user did not say it in full.
     pub notes: Vec<String>,
@@ -98,6 +100,23 @@ pub enum FieldError {
         /// All arrays.
         known: Vec<ArraySummary>,
     },
+    /// Constants of cells are asked for, and no cell array has this name.
+    #[error(
+        "there is no cell array \"{name}\", and values of points are not constant in a cell; the file has{}",
+        list(known)
+    )]
+    UnknownOfCells {
+        /// The name asked for.
+        name: String,
+        /// All arrays.
+        known: Vec<ArraySummary>,
+    },
+    /// Constants of cells are asked for, and there are none.
+    #[error("there is no cell array: no field is constant in each cell; the file has{}", list(known))]
+    NoCellArrays {
+        /// All arrays.
+        known: Vec<ArraySummary>,
+    },
     /// The array is there, the component is not.
     #[error(
         "the array \"{array}\" has no component \"{component}\": it has {components}; ask for {array}:0 to {array}:{} or \
@@ -130,16 +149,21 @@ pub enum FieldError {
     },
     /// Every tetrahedron touches a value that is NaN or infinite.
     #[error(
-        "the field \"{name}\" has no finite value on any cell ({non_finite} of {points} points are NaN or infinite); choose another field"
+        "the field \"{name}\" has no finite value on any cell ({non_finite} of {all} {of}s are NaN or infinite); choose another field"
     )]
     NothingFinite {
         /// The field.
         name: String,
-        /// Points with a value that is not finite.
+        /// What has values.
+        of: Association,
+        /// Those of them with a value that is not finite.
         non_finite: usize,
-        /// All points.
-        points: usize,
+        /// All of them.
+        all: usize,
     },
+    /// A point for each corner of each cell are too many.
+    #[error("constants a cell: {0}; or let the values be averaged onto the points")]
+    TooLarge(tetrascope_mesh::MeshError),
 }
 
 fn list(known: &[ArraySummary]) -> String {
@@ -199,14 +223,30 @@ pub(crate) fn finite_range(values: impl Iterator<Item = f64>) -> (Option<(f64, f
 /// # Errors
 /// [`FieldError`] with all arrays and their ranges when there is none of this name.
 pub fn select_field(dataset: &Dataset, wanted: Option<&str>) -> Result<Field, FieldError> {
+    select(dataset, wanted, &[Association::Point, Association::Cell])
+}
+
+/// Finds the cell array that `wanted` names and makes one constant a cell of it.
+///
+/// Names are those of [`select_field`], of cell arrays alone. Without a name: the first scalar cell array, else the first vector's magnitude.
+///
+/// # Errors
+/// [`FieldError`] with all arrays and their ranges when there is no cell array of this name.
+pub fn select_cell_field(dataset: &Dataset, wanted: Option<&str>) -> Result<Field, FieldError> {
+    select(dataset, wanted, &[Association::Cell])
+}
+
+/// The field of the array that `wanted` names, of those that belong to what `of` lists. Values of cells stay such where no others are looked for.
+fn select(dataset: &Dataset, wanted: Option<&str>, of: &[Association]) -> Result<Field, FieldError> {
     let mut notes = Vec::new();
     let (association, array, suffix) = match wanted {
-        Some(name) => find(dataset, name)?,
+        Some(name) => find(dataset, name, of)?,
         None => {
-            let (association, array) = default_array(dataset, &mut notes)?;
+            let (association, array) = default_array(dataset, of, &mut notes)?;
             (association, array, None)
         }
     };
+    let is_per_cell = !of.contains(&Association::Point);
     let expected = match association {
         Association::Point => dataset.points.len(),
         Association::Cell => match &dataset.cells {
@@ -240,22 +280,23 @@ pub fn select_field(dataset: &Dataset, wanted: Option<&str>) -> Result<Field, Fi
         ));
     }
     let values = match association {
-        Association::Point => values,
-        Association::Cell => {
+        Association::Cell if !is_per_cell => {
             warnings.push(format!(
-                "\"{}\" is a cell array: it is averaged onto the points, which smooths it by about a cell",
+                "\"{}\" is a cell array: it is averaged onto the points, which smooths it by about a cell; --cells, or mesh.cells = true, draws it as it is",
                 array.name
             ));
             cell_data_to_points(dataset, &values)
         }
+        _ => values,
     };
-    Ok(Field { name, association, values, notes, warnings })
+    Ok(Field { name, association, is_per_cell, values, notes, warnings })
 }
 
 type Found<'a> = (Association, &'a DataArray, Option<&'a str>);
 
-fn find<'a>(dataset: &'a Dataset, name: &'a str) -> Result<Found<'a>, FieldError> {
-    let named = |wanted: &str| arrays(dataset).find(|(_, array)| array.name == wanted);
+fn find<'a>(dataset: &'a Dataset, name: &'a str, of: &[Association]) -> Result<Found<'a>, FieldError> {
+    let named =
+        |wanted: &str| arrays(dataset).find(|(association, array)| of.contains(association) && array.name == wanted);
     if let Some((association, array)) = named(name) {
         return Ok((association, array, None));
     }
@@ -264,14 +305,28 @@ fn find<'a>(dataset: &'a Dataset, name: &'a str) -> Result<Found<'a>, FieldError
     {
         return Ok((association, array, Some(suffix)));
     }
-    Err(FieldError::Unknown { name: name.chars().take(LONGEST_NAME).collect(), known: summarize_arrays(dataset) })
+    let (name, known) = (name.chars().take(LONGEST_NAME).collect(), summarize_arrays(dataset));
+    Err(if of.contains(&Association::Point) {
+        FieldError::Unknown { name, known }
+    } else {
+        FieldError::UnknownOfCells { name, known }
+    })
 }
 
 fn default_array<'a>(
     dataset: &'a Dataset,
+    of: &[Association],
     notes: &mut Vec<String>,
 ) -> Result<(Association, &'a DataArray), FieldError> {
     let usable = |array: &&DataArray| array.tuple_count() > 0;
+    if !of.contains(&Association::Point) {
+        let cells = || dataset.cell_arrays.iter().filter(usable);
+        let array = cells().find(|array| array.components == 1).or_else(|| cells().next());
+        let array = array.ok_or_else(|| FieldError::NoCellArrays { known: summarize_arrays(dataset) })?;
+        let kind = if array.components == 1 { "scalar" } else { "vector" };
+        notes.push(format!("\"{}\" is the first {kind} cell array", array.name));
+        return Ok((Association::Cell, array));
+    }
     let points = || dataset.point_arrays.iter().filter(usable);
     let scalar = points().find(|array| array.components == 1);
     if let Some(array) = scalar {

@@ -3,7 +3,7 @@
 use glam::DVec3;
 use tetrascope_mesh::{ArrayValues, CellKind, Cells, DataArray, Dataset, UnstructuredCells, VertexId, decompose};
 
-use crate::{Association, FieldError, MeshFacts, place_on_mesh, select_field, summarize_arrays};
+use crate::{Association, FieldError, MeshFacts, place_on_mesh, select_cell_field, select_field, summarize_arrays};
 
 fn array(name: &str, components: usize, values: &[f64]) -> DataArray {
     DataArray { name: name.to_owned(), components, values: ArrayValues::F64(values.to_vec()) }
@@ -128,7 +128,7 @@ fn tetrahedra_that_touch_no_number_are_left_out() {
         let dataset = two_cells(vec![array("s", 1, &[bad, 2.0, 3.0, 4.0, 5.0])], vec![]);
         let decomposition = decompose(&dataset).unwrap();
         let on_mesh = place_on_mesh(&select_field(&dataset, None).unwrap(), &decomposition).unwrap();
-        assert_eq!((on_mesh.left_out, on_mesh.non_finite_points), (1, 1));
+        assert_eq!((on_mesh.left_out, on_mesh.non_finite), (1, 1));
         assert_eq!(on_mesh.range, (2.0, 5.0));
         assert_eq!(on_mesh.mesh.tetrahedra().len(), 1);
         assert!(on_mesh.mesh.tetrahedra()[0].contains(&VertexId(4)));
@@ -139,7 +139,7 @@ fn tetrahedra_that_touch_no_number_are_left_out() {
     }
     let dataset = two_cells(vec![array("s", 1, &[f64::NAN; 5])], vec![]);
     let error = place_on_mesh(&select_field(&dataset, None).unwrap(), &decompose(&dataset).unwrap()).unwrap_err();
-    assert!(matches!(error, FieldError::NothingFinite { non_finite: 5, points: 5, .. }));
+    assert!(matches!(error, FieldError::NothingFinite { non_finite: 5, all: 5, .. }));
 }
 
 #[test]
@@ -150,4 +150,45 @@ fn the_range_is_that_of_the_points_that_cells_use() {
     let on_mesh = place_on_mesh(&select_field(&dataset, None).unwrap(), &decomposition).unwrap();
     assert_eq!((on_mesh.range, on_mesh.left_out), ((1.0, 5.0), 0));
     assert!(on_mesh.warning().is_none());
+}
+
+#[test]
+fn constants_of_cells_stay_in_their_cells() {
+    let c = array("c", 1, &[10.0, 20.0]);
+    let dataset = two_cells(vec![array("s", 1, &[1.0, 2.0, 3.0, 4.0, 5.0])], vec![velocity_of_cells(), c.clone()]);
+    let decomposition = decompose(&dataset).unwrap();
+    let field = select_cell_field(&dataset, None).unwrap();
+    assert_eq!((field.name.as_str(), field.is_per_cell, field.values.as_slice()), ("c", true, &[10.0, 20.0][..]));
+    assert!(field.warnings.is_empty() && field.notes[0].contains("first scalar cell array"));
+    let on_mesh = place_on_mesh(&field, &decomposition).unwrap();
+    assert_eq!((on_mesh.range, on_mesh.left_out, on_mesh.mesh.positions().len()), ((10.0, 20.0), 0, 5 + 8));
+    for (corners, value) in on_mesh.mesh.tetrahedra().iter().zip([10.0, 20.0]) {
+        assert!(corners.iter().all(|vertex| on_mesh.scalars[vertex.index()] == value));
+    }
+    assert_eq!(select_cell_field(&dataset, Some("w:1")).unwrap().values, [4.0, 0.0]);
+
+    let error = select_cell_field(&dataset, Some("s")).unwrap_err();
+    assert!(
+        matches!(error, FieldError::UnknownOfCells { .. }) && error.to_string().contains("\"c\", 10 to 20"),
+        "{error}"
+    );
+    let none = select_cell_field(&two_cells(vec![c.clone()], vec![]), None).unwrap_err();
+    assert!(matches!(none, FieldError::NoCellArrays { .. }), "{none}");
+
+    // A cell whose own value is no number, and no neighbor, is left out.
+    for (values, left_out) in [([f64::NAN, 2.0], 1), ([1.0, f64::INFINITY], 1)] {
+        let dataset = two_cells(vec![], vec![array("c", 1, &values)]);
+        let field = select_cell_field(&dataset, None).unwrap();
+        let on_mesh = place_on_mesh(&field, &decomposition).unwrap();
+        assert_eq!((on_mesh.left_out, on_mesh.mesh.tetrahedra().len(), on_mesh.non_finite), (left_out, 1, 1));
+        assert!(on_mesh.warning().unwrap().contains("1 cells where"));
+    }
+    let dataset = two_cells(vec![], vec![array("c", 1, &[f64::NAN; 2])]);
+    let error = place_on_mesh(&select_cell_field(&dataset, None).unwrap(), &decomposition).unwrap_err();
+    assert!(error.to_string().contains("2 of 2 cells"), "{error}");
+}
+
+/// Two vectors of two components.
+fn velocity_of_cells() -> DataArray {
+    array("w", 2, &[3.0, 4.0, 0.0, 0.0])
 }

@@ -5,6 +5,7 @@
 mod names;
 mod quality;
 mod surfaces;
+mod transfer;
 
 use std::path::PathBuf;
 
@@ -14,6 +15,7 @@ use tetrascope_integrate::OpticalModel;
 pub use names::Choice;
 pub use quality::{IsosurfaceMethodName, LengthAxisName, QualitySection};
 pub use surfaces::{IsosurfaceSection, LightDirection, LightName, LightSection, Shading, SurfaceSection};
+pub use transfer::{OpacityName, PresetMap, TransferSection};
 
 use names::as_name;
 
@@ -61,6 +63,25 @@ pub struct MeshSection {
     /// The field to show: an array's name, with `:0`, `:x` or `:mag` for a vector's component or magnitude.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub field: Option<String>,
+    /// Which of the file's time steps, counted from 0; the last one if neither this nor `time` is there.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub step: Option<usize>,
+    /// In place of `step`: the time step nearest to this time.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub time: Option<f64>,
+    /// That the file is a raw volume, and of what: `"64x64x64:uint8"`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub raw: Option<String>,
+    /// Whether a cell array is drawn as one constant a cell, instead of being averaged onto the points.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub cells: bool,
+}
+
+impl MeshSection {
+    /// A mesh of which only the path is said.
+    pub fn of_path(path: impl Into<PathBuf>) -> Self {
+        Self { path: path.into(), solution: None, field: None, step: None, time: None, raw: None, cells: false }
+    }
 }
 
 /// `[camera]`
@@ -135,26 +156,11 @@ impl Default for OpticsSection {
     }
 }
 
-/// `[transfer]`
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct TransferSection {
-    /// Scalar and linear R, G, B.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub color: Option<Vec<[f64; 4]>>,
-    /// Scalar and extinction per world unit of length.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub extinction: Option<Vec<[f64; 2]>>,
-    /// A color map file, in place of the two.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub preset: Option<PathBuf>,
-}
-
 impl SceneFile {
     /// A scene that says nothing but the mesh's path.
     pub fn of_mesh(path: impl Into<PathBuf>) -> Self {
         Self {
-            mesh: MeshSection { path: path.into(), solution: None, field: None },
+            mesh: MeshSection::of_path(path),
             camera: CameraSection::default(),
             image: ImageSection::default(),
             optics: OpticsSection::default(),

@@ -175,10 +175,7 @@ fn a_byte_order_mark_is_no_error() {
 
 #[test]
 fn effects_that_are_not_there_are_refused_by_name() {
-    for (text, key) in [
-        ("[[surface]]\npath = \"fin.glb\"", "[[surface]] (path = \"fin.glb\")"),
-        ("[transfer]\npreset = \"a.json\"", "transfer.preset"),
-    ] {
+    for (text, key) in [("[[surface]]\npath = \"fin.glb\"", "[[surface]] (path = \"fin.glb\")")] {
         let error = toml(&format!("[mesh]\npath = \"m\"\n{text}\n")).complete(&facts()).unwrap_err();
         assert!(matches!(error, SceneError::NotSupported { .. }));
         let text = error.to_string();

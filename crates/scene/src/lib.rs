@@ -64,12 +64,14 @@ pub use check::{PlanError, check_scalars};
 pub use complete::{Completed, MAX_ERROR};
 pub use error::SceneError;
 pub use facts::MeshFacts;
-pub use field::{ArraySummary, Association, Field, FieldError, Part, select_field, summarize_arrays};
+pub use field::{
+    ArraySummary, Association, Field, FieldError, Part, select_cell_field, select_field, summarize_arrays,
+};
 #[cfg(feature = "file")]
 pub use file::{
     CameraSection, Choice, ImageSection, IsosurfaceMethodName, IsosurfaceSection, LengthAxisName, LightDirection,
-    LightName, LightSection, MeshSection, OpticsSection, ProjectionName, QualitySection, SceneFile, Shading,
-    SurfaceSection, TransferSection,
+    LightName, LightSection, MeshSection, OpacityName, OpticsSection, PresetMap, ProjectionName, QualitySection,
+    SceneFile, Shading, SurfaceSection, TransferSection,
 };
 pub use finite::{FieldOnMesh, place_on_mesh};
 pub use interpolation::{Interpolation, UnknownInterpolation};
@@ -99,3 +101,5 @@ mod interpolation_tests;
 mod order_tests;
 #[cfg(all(test, feature = "file"))]
 mod surface_tests;
+#[cfg(all(test, feature = "file"))]
+mod transfer_tests;

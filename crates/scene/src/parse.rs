@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use crate::file::SceneFile;
+use crate::file::{OpacityName, SceneFile};
 
 /// What is wrong with the text of a scene file, and where.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -115,7 +115,14 @@ impl SceneFile {
             ("mesh.path", path(&self.mesh.path)),
             ("mesh.solution", self.mesh.solution.as_deref().is_some_and(path)),
             ("mesh.field", text(&self.mesh.field)),
+            ("mesh.raw", text(&self.mesh.raw)),
+            ("transfer.colormap", text(&self.transfer.colormap)),
             ("transfer.preset", self.transfer.preset.as_deref().is_some_and(path)),
+            ("transfer.preset_name", text(&self.transfer.preset_name)),
+            (
+                "transfer.opacity",
+                matches!(&self.transfer.opacity, Some(OpacityName::Name(name)) if name.contains(char::is_control)),
+            ),
             ("surface.path", self.surface.iter().any(|surface| path(&surface.path))),
             ("quality.adapter", text(&self.quality.adapter)),
         ];

@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 
 use crate::MemoryError;
+use tetrascope_colors::ColorError;
 use tetrascope_cpu::RenderError;
 use tetrascope_estimate::EstimateError;
 use tetrascope_gpu::GpuError;
@@ -39,6 +40,9 @@ pub enum Error {
     /// The values of a scene.
     #[error("the scene: {0}")]
     Scene(#[from] SceneError),
+    /// A color map's file. The message names it.
+    #[error(transparent)]
+    Color(#[from] ColorError),
     /// A scene that cannot be written as text.
     #[error(transparent)]
     WriteScene(#[from] WriteSceneError),
@@ -61,6 +65,14 @@ pub enum Error {
         source_name: String,
         /// How much it needs.
         error: MemoryError,
+    },
+    /// A mesh that is built in does not change.
+    #[error("{source_name}: {problem}; leave the step out")]
+    NoSuchStep {
+        /// What the mesh is called.
+        source_name: String,
+        /// Why there is none.
+        problem: String,
     },
     /// A mesh that is built in goes by another name.
     #[error("there is no built-in mesh \"{}\"; there is {}", name.display(), crate::SAMPLE)]

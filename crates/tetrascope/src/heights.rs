@@ -31,7 +31,7 @@ impl VolumeField<'_> {
             Err(IoError::Read { source, .. }) if source.kind() == std::io::ErrorKind::NotFound => return Ok(None),
             Err(error) => return Ok(Some(format!("{error}. New heights are looked for"))),
         };
-        let (count, points) = (heights.len(), self.mesh().positions().len());
+        let (count, points) = (heights.len(), self.mesh().joined_positions().len());
         if count != points {
             return Ok(Some(format!(
                 "{} has {count} heights for {points} points: it is of another mesh. New heights are looked for",
@@ -39,8 +39,8 @@ impl VolumeField<'_> {
             )));
         }
         let visibility = MeshVisibility::with_heights(heights);
-        let tetrahedra = self.mesh().ascending_tetrahedra();
-        let cells = Cells { positions: self.mesh().positions(), tetrahedra: &tetrahedra };
+        let tetrahedra = self.mesh().joined_tetrahedra();
+        let cells = Cells { positions: self.mesh().joined_positions(), tetrahedra: &tetrahedra };
         let certificate = visibility.quick_certificate(cells);
         if !certificate.is_exact() {
             return Ok(Some(format!(

@@ -28,7 +28,7 @@
 //! ([`Table2d`], [`Table3d`], [`IsosurfaceMap`], [`SmoothMaps`]), and how far a way is from the exact light
 //! ([`deviation()`]).
 //!
-//! Limits: surfaces from files and color map files are not there yet and refused by name.
+//! Limits: surfaces from files are not there yet and refused by name.
 
 mod backend;
 mod check;
@@ -40,6 +40,7 @@ mod memory;
 mod order_worth;
 mod precision;
 mod render;
+mod section;
 mod threads;
 mod volume;
 
@@ -49,8 +50,12 @@ pub use error::Error;
 pub use memory::{MemoryError, memory_left};
 pub use order_worth::OrderWorth;
 pub use render::{Picture, is_blank, render_scene, render_volume, warn_of_non_finite};
+pub use section::{read_options, read_preset};
 pub use volume::{SAMPLE, Volume, VolumeField, is_builtin, resolve_path};
 
+pub use tetrascope_colors::{
+    ColorError, ColorMap, ColorSpace, Opacity, OpacityUnit, Presets, all_names, opacity_names, read_presets,
+};
 pub use tetrascope_cpu::{CpuRenderer, RenderError, reference};
 pub use tetrascope_estimate::{BlendingOrder, Cause, ErrorEstimate, ErrorPart, EstimateError};
 pub use tetrascope_gpu::{AdapterChoice, AdapterDescription, Gpu, GpuError, GpuRenderer, adapters};
@@ -61,9 +66,9 @@ pub use tetrascope_integrate::{
     deviation,
 };
 pub use tetrascope_io::{
-    IoError, Loaded, PictureFile, PngImage, ReadOptions, StepChoice, check_writable, encode_png, end_writing,
-    make_folder, read_exr, read_heights, read_mesh, read_picture, read_png, readers, write_bytes, write_exr,
-    write_files, write_heights, write_image, write_png, write_vtu,
+    ByteOrder, IoError, Loaded, PictureFile, PngImage, RawVolume, ReadOptions, SampleType, StepChoice, check_writable,
+    encode_png, end_writing, make_folder, read_exr, read_heights, read_mesh, read_picture, read_png, readers,
+    write_bytes, write_exr, write_files, write_heights, write_image, write_png, write_vtu,
 };
 pub use tetrascope_mesh::{
     ArrayValues, CellKind, Cells, ChordLengths, DataArray, Dataset, Decomposition, MeshError, StructuredBlock, TetMesh,
@@ -76,17 +81,17 @@ pub use tetrascope_scene::{
     ArraySummary, Association, Backend, BufferRole, Bytes, CameraSection, Choice, Completed, Counts, Decision,
     DeviceBuffer, DeviceReport, Field, FieldError, FieldOnMesh, Fragments, GpuOptions, GpuPath, Gradients,
     Interpolation, IsosurfaceMethod, IsosurfaceMethodName, IsosurfacePlan, IsosurfaceSection, LengthAxisName,
-    LightDirection, LightName, LightSection, Lighting, MapWork, MeshFacts, Mixing, OrderReport, Plan, PlanError,
-    Progress, ProjectionName, Rendered, Scene, SceneError, SceneFile, SceneSyntaxError, Shading, Sharpness, Silent,
-    Stage, TableWork, TargetBits, Work, WorkBuffer, explain_blank, foresee_blank, rough, select_field, short,
-    summarize_arrays,
+    LightDirection, LightName, LightSection, Lighting, MapWork, MeshFacts, MeshSection, Mixing, OpacityName,
+    OrderReport, Plan, PlanError, Progress, ProjectionName, Rendered, Scene, SceneError, SceneFile, SceneSyntaxError,
+    Shading, Sharpness, Silent, Stage, TableWork, TargetBits, TransferSection, Work, WorkBuffer, explain_blank,
+    foresee_blank, rough, select_cell_field, select_field, short, summarize_arrays,
 };
 pub use tetrascope_view::{Camera, ErrorFigures, LinearImage, PixelDifference, Projection, View, ViewError};
 
 pub use {
-    tetrascope_classify as classify, tetrascope_cpu as cpu, tetrascope_gpu as gpu, tetrascope_integrate as integrate,
-    tetrascope_io as io, tetrascope_mesh as mesh, tetrascope_order as order, tetrascope_scene as scene,
-    tetrascope_view as view,
+    tetrascope_classify as classify, tetrascope_colors as colors, tetrascope_cpu as cpu, tetrascope_gpu as gpu,
+    tetrascope_integrate as integrate, tetrascope_io as io, tetrascope_mesh as mesh, tetrascope_order as order,
+    tetrascope_scene as scene, tetrascope_view as view,
 };
 
 #[cfg(test)]

@@ -118,8 +118,8 @@ impl VolumeField<'_> {
         match self.made.cpu.get() {
             Some(renderer) => renderer.cells(),
             None => Cells {
-                positions: self.mesh().positions(),
-                tetrahedra: self.made.ascending.get_or_init(|| self.mesh().ascending_tetrahedra()),
+                positions: self.mesh().joined_positions(),
+                tetrahedra: self.made.ascending.get_or_init(|| self.mesh().joined_tetrahedra()),
             },
         }
     }

@@ -7,7 +7,7 @@ use tetrascope_io::write_image;
 use tetrascope_scene::{Counts, DeviceReport, Plan, Progress, SceneFile, explain_blank};
 use tetrascope_view::LinearImage;
 
-use crate::{Error, OrderWorth, ReadOptions, Volume, resolve_path};
+use crate::{Error, OrderWorth, Volume, read_preset};
 
 /// A picture, and how it was made.
 #[derive(Clone, Debug)]
@@ -47,18 +47,18 @@ impl Picture {
 /// # Errors
 /// [`Error`], from whichever step failed.
 pub fn render_scene(scene: &SceneFile, base_dir: &Path, progress: &dyn Progress) -> Result<Picture, Error> {
-    let solution = scene.mesh.solution.as_ref().map(|path| resolve_path(base_dir, path));
-    let volume =
-        Volume::load(&resolve_path(base_dir, &scene.mesh.path), &ReadOptions::with_solution(solution.as_deref()))?;
-    render_volume(&volume, scene, progress)
+    let mut scene = scene.clone();
+    read_preset(&mut scene, base_dir)?;
+    let volume = Volume::of_section(&scene.mesh, base_dir)?;
+    render_volume(&volume, &scene, progress)
 }
 
-/// Draws a mesh that is in memory; the scene's `mesh.path` is not looked at.
+/// Draws a mesh that is in memory: of the scene's `[mesh]` only the field is looked at. A preset was [read](read_preset) before.
 ///
 /// # Errors
 /// [`Error`], from whichever step failed; [`Error::Memory`] before anything is drawn where the picture needs more memory than is left.
 pub fn render_volume(volume: &Volume, scene: &SceneFile, progress: &dyn Progress) -> Result<Picture, Error> {
-    let field = volume.field(scene.mesh.field.as_deref())?;
+    let field = volume.field_of_section(&scene.mesh)?;
     let mut completed = scene.complete(&field.facts)?;
     completed.file.mesh.field = Some(field.field.name.clone());
     let start = Instant::now();

@@ -9,8 +9,8 @@ use tetrascope_gpu::GpuError;
 use tetrascope_io::{ReadOptions, file_length, read_mesh};
 use tetrascope_mesh::{CellKind, Cells, Dataset, Decomposition, StructuredBlock, decompose};
 use tetrascope_scene::{
-    ArraySummary, Backend, Field, FieldOnMesh, MeshFacts, Plan, Progress, Rendered, Stage, Work, place_on_mesh,
-    select_field, summarize_arrays,
+    ArraySummary, Backend, Field, FieldError, FieldOnMesh, MeshFacts, Plan, Progress, Rendered, Stage, Work,
+    place_on_mesh, select_cell_field, select_field, summarize_arrays,
 };
 
 use crate::Error;
@@ -56,6 +56,8 @@ impl Volume {
     /// [`Error::Io`] if the file is not read, [`Error::Mesh`] if nothing in it has a volume, [`Error::MeshMemory`] if either cannot be held.
     pub fn load(path: &Path, options: &ReadOptions) -> Result<Self, Error> {
         if is_builtin(path) {
+            let source_name = path.display().to_string();
+            options.step.of(&[]).map_err(|problem| Error::NoSuchStep { source_name, problem })?;
             return if path == Path::new(SAMPLE) {
                 Self::sample()
             } else {
@@ -124,8 +126,20 @@ impl Volume {
     /// # Errors
     /// [`Error::Field`] with all arrays if there is none of this name, or if it has no finite value.
     pub fn field(&self, name: Option<&str>) -> Result<VolumeField<'_>, Error> {
+        self.place(select_field(&self.dataset, name))
+    }
+
+    /// The cell array of this name as one constant a cell, see [`select_cell_field`]; without a name the first scalar one.
+    ///
+    /// # Errors
+    /// [`Error::Field`] with all arrays if there is none of this name, if it has no finite value, or if the cells have too many corners.
+    pub fn cell_field(&self, name: Option<&str>) -> Result<VolumeField<'_>, Error> {
+        self.place(select_cell_field(&self.dataset, name))
+    }
+
+    fn place(&self, field: Result<Field, FieldError>) -> Result<VolumeField<'_>, Error> {
         let named = |error| Error::Field { source_name: self.source_name.clone(), error };
-        let field = select_field(&self.dataset, name).map_err(named)?;
+        let field = field.map_err(named)?;
         let on_mesh = place_on_mesh(&field, &self.decomposition).map_err(named)?;
         let facts = MeshFacts::new(&self.decomposition.mesh, on_mesh.range).ok_or_else(|| Error::Mesh {
             source_name: self.source_name.clone(),

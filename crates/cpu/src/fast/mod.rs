@@ -95,6 +95,10 @@ pub struct CpuRenderer {
     scalar_factor: f64,
     /// Vertices in ascending order.
     tetrahedra: Vec<[VertexId; 4]>,
+    /// The same over points that neighbors share, where they do not.
+    joined: Option<Vec<[VertexId; 4]>>,
+    /// Points that are there once; others follow.
+    joined_points: usize,
     /// Whether the volume in that order is positive.
     is_positive: Vec<bool>,
     /// The instructions that the processor has.
@@ -148,7 +152,7 @@ impl CpuRenderer {
 
     /// The same with what is known of the mesh already; what is learned is shared with whoever else has it.
     ///
-    /// - `visibility`: of the same mesh, as [`TetMesh::ascending_tetrahedra`] has its cells
+    /// - `visibility`: of the same mesh, as [`TetMesh::joined_tetrahedra`] has its cells
     ///
     /// # Errors
     /// Those of [`Self::new`].
@@ -178,6 +182,8 @@ impl CpuRenderer {
             scalar_factor,
             scalar_range: range.map(|scalar| scalar * scalar_factor),
             tetrahedra,
+            joined: mesh.has_points_of_cells().then(|| mesh.joined_tetrahedra()),
+            joined_points: mesh.joined_positions().len(),
             is_positive,
             level: Level::new(),
             optics: Mutex::new(Vec::new()),
@@ -205,7 +211,10 @@ impl CpuRenderer {
 
     /// The mesh as visibility orders see it: in the mesh's own coordinates, each cell's points in ascending order.
     pub fn cells(&self) -> Cells<'_> {
-        Cells { positions: &self.positions, tetrahedra: &self.tetrahedra }
+        Cells {
+            positions: &self.positions[..self.joined_points],
+            tetrahedra: self.joined.as_ref().unwrap_or(&self.tetrahedra),
+        }
     }
 
     /// What visibility orders know of [`Self::cells`].
