@@ -10,11 +10,11 @@ use tetrascope::{
     OpticalModel, OrderMethod, Shading,
 };
 
-pub(crate) use values::fraction;
 use values::{
-    Points, color_points, extinction_points, isosurface, length_axis, number, opacity, range, raw_volume, shading,
-    size, table_size, target_bits, vector, wanted_error,
+    Points, color_points, extinction_points, isosurface, length_axis, opacity, range, raw_volume, shading, size,
+    table_size, target_bits, wanted_error,
 };
+pub(crate) use values::{fraction, number, vector};
 
 /// Draws unstructured meshes as volumes.
 #[derive(Debug, Parser)]
@@ -43,6 +43,7 @@ Examples:
   tetrascope render scene.toml -o a.png    draw what a scene file says
   tetrascope plan scene.toml               what that would take, and why
   tetrascope compare a.exr b.exr           how far two pictures are apart
+  tetrascope animate case.pvd -o frames    a picture for each time step
 
 Exit codes: 0 good, 1 wrong input or no room (disk, memory), 2 wrong usage, 3 pictures differ by more than a threshold, 130 interrupted by
 Ctrl-C, 143 by the system's request to end, 129 by a closed terminal. Files are written whole or not at all, and what they replace stays
@@ -64,6 +65,8 @@ pub(crate) enum Command {
     Compare(CompareArgs),
     /// Draw a scene with every method, and show what accuracy costs in time.
     Study(Box<StudyArgs>),
+    /// Draw the time steps of a mesh, or a turn around it, as numbered pictures with one scale for all.
+    Animate(Box<crate::animate::AnimateArgs>),
 }
 
 const RENDER_EXAMPLES: &str = "\
@@ -242,6 +245,13 @@ pub(crate) struct SceneArgs {
     /// A scene file (.toml, .json), a mesh file, or a PLOT3D grid and its solution; builtin:rings is a sample
     #[arg(required = true, num_args = 1..=2, value_name = "INPUT")]
     pub(crate) input: Vec<PathBuf>,
+    #[command(flatten)]
+    pub(crate) look: LookArgs,
+}
+
+/// What goes over what a scene says.
+#[derive(Debug, Args)]
+pub(crate) struct LookArgs {
     #[command(flatten)]
     pub(crate) mesh: MeshArgs,
 

@@ -179,6 +179,13 @@ pub(crate) fn has_replaced(name: String) {
     state.written.push(name);
 }
 
+/// What is said of something that was written, in place of what was said of it before.
+pub(crate) fn replaces(before: &str, name: String) {
+    let mut state = state();
+    state.written.retain(|written| written != before);
+    state.written.push(name);
+}
+
 /// A folder that was made and goes again where nothing is written into it.
 pub(crate) fn made_folder(path: &Path) {
     state().folders.insert(0, path.to_owned());

@@ -4,6 +4,7 @@
 //! 2 wrong usage, 3 pictures differ by more than a threshold, 130 interrupted by Ctrl-C, 143 by the system's request to end, 129 by a
 //! closed terminal. Files are written whole or not at all, whatever ends the program.
 
+mod animate;
 mod args;
 mod check;
 mod compare;
@@ -36,6 +37,7 @@ const fn help_of(command: Option<&Command>) -> &'static str {
         Some(Command::Devices(_)) => "tetrascope devices --help",
         Some(Command::Plan(_)) => "tetrascope plan --help",
         Some(Command::Compare(_)) => "tetrascope compare --help",
+        Some(Command::Animate(_)) => "tetrascope animate --help",
     }
 }
 
@@ -103,6 +105,7 @@ fn run(cli: &Cli) -> Result<(), Failure> {
         Some(Command::Devices(args)) => devices::run(args),
         Some(Command::Plan(args)) => plan::run(args),
         Some(Command::Compare(args)) => compare::run(args),
+        Some(Command::Animate(args)) => animate::run(args),
     }
 }
 

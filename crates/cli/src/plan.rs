@@ -33,7 +33,7 @@ pub(crate) fn run(args: &PlanArgs) -> Result<(), Failure> {
 
 fn plan(args: &PlanArgs, bar: &Bar) -> Result<Said, Failure> {
     let (scene, base_dir) = scene_of(&args.scene)?;
-    let threads = args.scene.threads.map(usize::from);
+    let threads = args.scene.look.threads.map(usize::from);
     bar.step("reading and cutting into tetrahedra");
     let volume = Volume::of_section(&scene.mesh, &base_dir)?;
     interrupt::go_on()?;

@@ -30,7 +30,7 @@ pub(crate) fn run(args: &RenderArgs) -> Result<(), Failure> {
         base_dir,
         outputs,
         write_scene: args.write_scene.as_deref(),
-        threads: args.scene.threads.map(usize::from),
+        threads: args.scene.look.threads.map(usize::from),
         quiet: args.quiet,
         json: args.json,
         explain: args.explain,
@@ -94,7 +94,7 @@ impl Job<'_> {
 
         bar.step("choosing methods");
         let start = Instant::now();
-        let (completed, plan) = self.decide(&field)?;
+        let (completed, plan) = self.decide(&field, volume.step_of_several())?;
         bar.clear();
         report.chose_in(start.elapsed());
         interrupt::go_on()?;
@@ -184,10 +184,11 @@ impl Job<'_> {
         Ok(())
     }
 
-    fn decide(&self, field: &VolumeField<'_>) -> Result<(Completed, Plan), Failure> {
+    fn decide(&self, field: &VolumeField<'_>, step: Option<usize>) -> Result<(Completed, Plan), Failure> {
         let wrong = |error: tetrascope::Error| wrong_scene(self.scene_path, error);
         let mut completed = self.scene.complete(&field.facts).map_err(|error| wrong(error.into()))?;
         completed.file.mesh.field = Some(field.field.name.clone());
+        completed.file.mesh.settle_step(step);
         completed.scene.threads = self.threads;
         let plan = field.plan(&mut completed).map_err(wrong)?;
         Ok((completed, plan))

@@ -50,10 +50,13 @@ impl Report {
         let tetrahedra = volume.decomposition.mesh.tetrahedra().len();
         self.say("mesh", &format!("{} ({})", volume.source_name, volume.format));
         self.say("", &format!("{points} points, {cells} cells, {tetrahedra} tetrahedra"));
+        if let Some(time) = volume.times.get(volume.step) {
+            self.say("", &format!("time step {} of 0 to {}, at {}", volume.step, volume.times.len() - 1, short(*time)));
+        }
         self.put(
             "mesh",
             json!({ "path": volume.source_name, "format": volume.format, "points": points, "cells": cells,
-                "tetrahedra": tetrahedra }),
+                "tetrahedra": tetrahedra, "step": volume.step, "times": volume.times }),
         );
         self.timings.extend(volume.timings.iter().map(|(step, time)| ((*step).to_owned(), *time)));
         for text in volume.warnings.iter().chain(&volume.decomposition.counts.findings()) {

@@ -8,13 +8,13 @@ use tetrascope::{
 };
 
 use crate::Failure;
-use crate::args::{CameraArgs, MeshArgs, SceneArgs};
+use crate::args::{CameraArgs, LookArgs, MeshArgs, SceneArgs};
 use crate::scene_paths::{self, folder_of, is_scene};
 
 /// The scene of inputs and options, and the folder that its paths are relative to.
 pub(crate) fn scene_of(args: &SceneArgs) -> Result<(SceneFile, PathBuf), Failure> {
     let (mut scene, base_dir) = scene_of_inputs(&args.input)?;
-    override_by_options(&mut scene, args);
+    override_by_options(&mut scene, &args.look);
     read_preset(&mut scene, &base_dir)?;
     Ok((scene, base_dir))
 }
@@ -27,7 +27,7 @@ impl SceneArgs {
 }
 
 /// A scene file with its folder, or a scene of nothing but a mesh.
-fn scene_of_inputs(inputs: &[PathBuf]) -> Result<(SceneFile, PathBuf), Failure> {
+pub(crate) fn scene_of_inputs(inputs: &[PathBuf]) -> Result<(SceneFile, PathBuf), Failure> {
     match inputs {
         [scene] if is_scene(scene) => Ok((scene_paths::read(scene)?, folder_of(scene).to_owned())),
         [mesh] => Ok((SceneFile::of_mesh(mesh), PathBuf::new())),
@@ -76,7 +76,7 @@ fn override_mesh(section: &mut MeshSection, args: &MeshArgs) {
 }
 
 /// What an option says counts alone: what the scene file has for the same gives way.
-fn override_transfer(section: &mut TransferSection, args: &SceneArgs) {
+fn override_transfer(section: &mut TransferSection, args: &LookArgs) {
     if let Some(points) = &args.color {
         section.color = Some(points.0.clone());
         section.colormap = None;
@@ -129,7 +129,7 @@ fn override_camera(camera: &mut CameraSection, args: &CameraArgs) {
     }
 }
 
-fn override_by_options(scene: &mut SceneFile, args: &SceneArgs) {
+pub(crate) fn override_by_options(scene: &mut SceneFile, args: &LookArgs) {
     fn set<T: Clone>(slot: &mut T, value: Option<&T>) {
         if let Some(value) = value {
             slot.clone_from(value);

@@ -24,6 +24,17 @@ impl MeshFacts {
         Some(Self { lowest, highest, scalar_range })
     }
 
+    /// Facts of both: the box around the two boxes, and the range of the two ranges. Defaults made of it fit either.
+    #[must_use]
+    pub fn joined(&self, other: &Self) -> Self {
+        let ((low, high), (other_low, other_high)) = (self.scalar_range, other.scalar_range);
+        Self {
+            lowest: self.lowest.min(other.lowest),
+            highest: self.highest.max(other.highest),
+            scalar_range: (low.min(other_low), high.max(other_high)),
+        }
+    }
+
     /// The middle of the box.
     pub fn center(&self) -> DVec3 {
         self.lowest * 0.5 + self.highest * 0.5
@@ -35,5 +46,19 @@ impl MeshFacts {
         // Scaled, so that the squares of sides of 1e-200 or 1e200 stay numbers.
         let longest = sides.max_element();
         if longest > 0.0 { (sides / longest).length() * longest } else { 0.0 }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn joined_facts_hold_both() {
+        let a = MeshFacts { lowest: DVec3::ZERO, highest: DVec3::ONE, scalar_range: (-1.0, 2.0) };
+        let b = MeshFacts { lowest: DVec3::NEG_X, highest: DVec3::splat(0.5), scalar_range: (0.0, 3.0) };
+        let both = a.joined(&b);
+        assert_eq!(both, MeshFacts { lowest: DVec3::NEG_X, highest: DVec3::ONE, scalar_range: (-1.0, 3.0) });
+        assert_eq!(both, b.joined(&a));
     }
 }

@@ -78,6 +78,13 @@ pub struct MeshSection {
 }
 
 impl MeshSection {
+    /// Names the time step that was read, in place of a time or of the last one; nothing is said of a mesh without steps.
+    pub fn settle_step(&mut self, step: Option<usize>) {
+        if step.is_some() {
+            (self.step, self.time) = (step, None);
+        }
+    }
+
     /// A mesh of which only the path is said.
     pub fn of_path(path: impl Into<PathBuf>) -> Self {
         Self { path: path.into(), solution: None, field: None, step: None, time: None, raw: None, cells: false }

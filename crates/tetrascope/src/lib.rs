@@ -30,6 +30,7 @@
 //!
 //! Limits: surfaces from files are not there yet and refused by name.
 
+mod animation;
 mod backend;
 mod check;
 mod error;
@@ -44,6 +45,7 @@ mod section;
 mod threads;
 mod volume;
 
+pub use animation::{Frame, frames_of, turned_camera};
 pub use backend::adapter_of_auto;
 pub use check::{MeshCheck, OrderCheck, seen_pixels};
 pub use error::Error;

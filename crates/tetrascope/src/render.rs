@@ -61,6 +61,7 @@ pub fn render_volume(volume: &Volume, scene: &SceneFile, progress: &dyn Progress
     let field = volume.field_of_section(&scene.mesh)?;
     let mut completed = scene.complete(&field.facts)?;
     completed.file.mesh.field = Some(field.field.name.clone());
+    completed.file.mesh.settle_step(volume.step_of_several());
     let start = Instant::now();
     let plan = field.plan(&mut completed)?;
     let chosen = start.elapsed();

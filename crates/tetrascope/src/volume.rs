@@ -116,6 +116,11 @@ impl Volume {
         Ok(volume)
     }
 
+    /// Which time step was read; `None` of a file that knows no time.
+    pub fn step_of_several(&self) -> Option<usize> {
+        (!self.times.is_empty()).then_some(self.step)
+    }
+
     /// All arrays with their ranges.
     pub fn arrays(&self) -> Vec<ArraySummary> {
         summarize_arrays(&self.dataset)

@@ -55,9 +55,9 @@ fn negative_numbers_are_values() {
     let negative = ["--eye", "-1,-2,3", "--extinction", "-1:0;1:2", "--isosurface", "-1:1,1,1"];
     let cli = Cli::try_parse_from([&["tetrascope", "render", "a.vtu"], &negative[..]].concat());
     let Some(Command::Render(args)) = cli.unwrap().command else { panic!("not render") };
-    assert_eq!(args.scene.camera.eye, Some([-1.0, -2.0, 3.0]));
-    assert_eq!(args.scene.extinction, Some(Points(vec![[-1.0, 0.0], [1.0, 2.0]])));
-    assert_eq!(args.scene.isosurface[0].value, -1.0);
+    assert_eq!(args.scene.look.camera.eye, Some([-1.0, -2.0, 3.0]));
+    assert_eq!(args.scene.look.extinction, Some(Points(vec![[-1.0, 0.0], [1.0, 2.0]])));
+    assert_eq!(args.scene.look.isosurface[0].value, -1.0);
 }
 
 #[test]

@@ -43,7 +43,7 @@ fn numbers<const N: usize>(text: &str) -> Result<[f64; N], String> {
     Ok(out)
 }
 
-pub(super) fn vector(text: &str) -> Result<[f64; 3], String> {
+pub(crate) fn vector(text: &str) -> Result<[f64; 3], String> {
     numbers(text)
 }
 
@@ -124,7 +124,7 @@ pub(super) fn extinction_points(text: &str) -> Result<Points<2>, String> {
     points::<2, 1>(text)
 }
 
-pub(super) fn number(text: &str) -> Result<f64, String> {
+pub(crate) fn number(text: &str) -> Result<f64, String> {
     numbers::<1>(text).map(|[number]| number)
 }
 
