@@ -19,6 +19,7 @@ mod light;
 mod methods;
 mod orders;
 mod plan;
+mod presets;
 mod real_meshes;
 mod references;
 mod saving;

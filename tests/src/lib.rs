@@ -10,6 +10,7 @@ pub mod hard;
 pub mod meshes;
 pub mod peers;
 pub mod pictures;
+pub mod presets;
 pub mod scenes;
 pub mod shapes;
 pub mod shared;

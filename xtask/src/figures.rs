@@ -5,7 +5,7 @@
 
 mod cells;
 mod maps;
-mod raw;
+mod presets;
 mod scene;
 pub(crate) mod sheet;
 
@@ -44,6 +44,8 @@ enum Work {
     CellsAndMaps(&'static [&'static str]),
     /// What a scene's isosurfaces and volume are looked up in: pass for the back faces, table, pass for the front faces.
     Maps(&'static str),
+    /// Color map files of every kind, each above what VTK makes of it.
+    Presets,
     /// The table of a scene with the integral stopped at its isosurfaces.
     StoppedTable(&'static str),
     /// The opacity of a three-dimensional table of that kind, as a volume with one isosurface, drawn as the figure's own scene says.
@@ -69,6 +71,7 @@ const FIGURES: &[Figure] = &[
     Figure { name: "post", work: Work::Scene },
     Figure { name: "neghip", work: Work::Scene },
     Figure { name: "ring", work: Work::Row(&["ring-report", "ring-cut"]) },
+    Figure { name: "presets", work: Work::Presets },
 ];
 
 /// Draws the figures. Those whose data is absent are named, and no error.
@@ -112,6 +115,7 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
 fn draw(figure: &Figure, size: u32) -> Result<Option<LinearImage>, Failure> {
     let parts: &[&str] = match &figure.work {
         Work::Scene => &[figure.name],
+        Work::Presets => return presets::sheet().map(Some),
         Work::Row(scenes) | Work::CellsAndMaps(scenes) => scenes,
         Work::Maps(scene) | Work::StoppedTable(scene) | Work::StoppedOpacity(scene) => &[*scene],
     };

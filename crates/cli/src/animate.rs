@@ -265,7 +265,7 @@ fn draw(asked: &Asked<'_>, record: &Record, bar: &Bar, kept: &mut Kept) -> Resul
     let open: Vec<&FrameFile> = record.frames.iter().filter(is_open).collect();
     let total = record.frames.len();
     let mut done = total - open.len();
-    let said = |done: usize| format!("{done} of {total} frames in {} (the same command goes on)", folder.display());
+    let said = |done: usize| format!("{} ({done} of {total} frames; the same command goes on)", folder.display());
     if done > 0 {
         interrupt::has_replaced(said(done));
     }

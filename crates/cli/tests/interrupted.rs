@@ -247,3 +247,29 @@ mod blocked {
         assert_eq!(end(child).0, Some(143));
     }
 }
+
+#[test]
+fn an_interrupted_animation_keeps_its_frames_and_goes_on() {
+    let folder = tempfile::tempdir().unwrap();
+    let args = ["animate", "builtin:rings", "--size", "300", "--frames", "400", "-o", "film"];
+    let film = folder.path().join("film");
+    let child = start(folder.path(), &args);
+    wait_until("the second frame", || film.join("frame_0001.png").exists());
+    signal(&child, "-INT");
+    let (code, text) = end(child);
+    assert_eq!(code, Some(130), "{text}");
+    let frames = names(&film).iter().filter(|name| name.starts_with("frame_")).count();
+    let said = format!("interrupted: film ({frames} of 400 frames; the same command goes on) was written before\n");
+    assert!((2..400).contains(&frames) && text == said, "{frames}: {text}");
+    for frame in 0..frames {
+        tetrascope::read_png(&film.join(format!("frame_{frame:04}.png"))).unwrap();
+    }
+    // Nothing that is there is drawn again.
+    let first = film.join("frame_0000.png");
+    std::fs::write(&first, "kept").unwrap();
+    let child = start(folder.path(), &args);
+    wait_until("one more frame", || film.join(format!("frame_{frames:04}.png")).exists());
+    signal(&child, "-INT");
+    assert_eq!(end(child).0, Some(130));
+    assert_eq!(std::fs::read(&first).unwrap(), b"kept");
+}

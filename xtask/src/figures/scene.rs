@@ -3,11 +3,9 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use tetrascope::{
-    LinearImage, Plan, ReadOptions, SceneFile, Silent, Volume, VolumeField, is_builtin, render_volume, resolve_path,
-};
+use tetrascope::{LinearImage, Plan, SceneFile, Silent, Volume, VolumeField, is_builtin, render_volume, resolve_path};
 
-use super::{raw, sheet};
+use super::sheet;
 use crate::Failure;
 
 /// A scene and the mesh that it shows.
@@ -28,11 +26,7 @@ impl Drawing {
             println!("SKIPPED {name}: there is no {}", path.display());
             return Ok(None);
         }
-        let volume = if mesh.extension().is_some_and(|ending| ending == "raw") {
-            Volume::from_dataset(raw::read(&mesh)?, &mesh.display().to_string())?
-        } else {
-            Volume::load(&mesh, &ReadOptions::with_solution(solution.as_deref()))?
-        };
+        let volume = Volume::of_section(&scene.mesh, &folder())?;
         Ok(Some(Self { scene, volume }))
     }
 
