@@ -117,10 +117,14 @@ fn xml(preset: &Value) -> String {
 /// Places at which a map jumps: those of two points, those where a map of steps takes the next color, and ends that a path between colors does
 /// not reach.
 fn steps(map: &ColorMap) -> Vec<usize> {
+    let differ = |a: [f64; 3], b: [f64; 3]| a.into_iter().zip(b).any(|(a, b)| (a - b).abs() > 1e-3);
+    let ends = [map.points().first(), map.points().last()].map(|point| point.map_or([0.0; 3], |point| point.rgb));
     let jumps = |place: &usize| {
         let x = *place as f64 * PITCH;
-        let sides = map.color_at(x - 1e-9).into_iter().zip(map.color_at(x + 1e-9));
-        sides.map(|(a, b)| (a - b).abs()).fold(0.0, f64::max) > 1e-3
+        // Beyond the ends there are the outermost colors.
+        let below = if *place == 0 { ends[0] } else { map.color_at(x - 1e-9) };
+        let above = if *place == 40 { ends[1] } else { map.color_at(x + 1e-9) };
+        differ(below, above) || differ(below, map.color_at(x))
     };
     (0..=40).filter(jumps).collect()
 }
