@@ -201,9 +201,9 @@ fn work_on_presets_grows_with_the_file() {
         let points = many(n, |i| format!("<Point x=\"{i}\" o=\"1\" r=\"0\" g=\"1\" b=\"0\"/>"));
         format!("<ColorMaps><ColorMap name=\"a\" space=\"RGB\">{points}</ColorMap></ColorMaps>").into_bytes()
     };
-    let kinds: [(&str, &dyn Fn(usize) -> Vec<u8>); 3] = [("points", &json), ("presets", &presets), ("XML", &xml)];
-    for (name, file) in kinds {
-        let (small, large) = (file(1000), file(4000));
+    let sizes =
+        [("points", json(1000), json(4000)), ("presets", presets(1000), presets(4000)), ("XML", xml(1000), xml(4000))];
+    for (name, small, large) in sizes {
         let (less, more) = (cost(&small), cost(&large));
         println!("presets, {name}: {} and {} bytes, {less} and {more} allocated", small.len(), large.len());
         assert!(more < 10.0 * less, "{name}: {less} and {more}");
