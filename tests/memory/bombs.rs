@@ -12,14 +12,14 @@ use tetrascope_tests::fuzz::{Target, most_allocated};
 use crate::{alone, counted};
 
 /// How a file ends: in an error with these words, or with a mesh.
-enum End<'a> {
+pub(crate) enum End<'a> {
     Refused(&'a [&'a str]),
     Read,
 }
 use End::{Read, Refused};
 
 /// Reads a file of these bytes; what it allocates is below so many bytes.
-fn read(name: &str, bytes: &[u8], end: End<'_>, most: usize) {
+pub(crate) fn read(name: &str, bytes: &[u8], end: End<'_>, most: usize) {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join(name);
     std::fs::write(&path, bytes).unwrap();

@@ -27,7 +27,7 @@ fn read(name: &str, bytes: &[u8]) -> (usize, bool) {
 }
 
 /// Files of many things, made for a number of them.
-fn check(name: &str, few: usize, file: impl Fn(usize) -> Vec<u8>) {
+pub(crate) fn check(name: &str, few: usize, file: impl Fn(usize) -> Vec<u8>) {
     let (small, large) = (file(few), file(4 * few));
     let ((less, first), (more, second)) = (read(name, &small), read(name, &large));
     let growth = more as f64 / less as f64;
@@ -65,7 +65,7 @@ fn array(name: &str) -> String {
     format!("<DataArray type=\"UInt8\" Name=\"{name}\">1 2 3 4</DataArray>")
 }
 
-fn many(count: usize, of: impl Fn(usize) -> String) -> String {
+pub(crate) fn many(count: usize, of: impl Fn(usize) -> String) -> String {
     (0..count).map(of).collect()
 }
 

@@ -6,6 +6,7 @@
 #![expect(clippy::unwrap_used, clippy::print_stdout, reason = "a panic is a failure, and measured maxima are said")]
 
 mod bombs;
+mod formats;
 mod fuzz;
 mod growth;
 mod real_files;

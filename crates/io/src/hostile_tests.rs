@@ -1,11 +1,6 @@
 //! Broken files of the shared data set, and random bytes, through every reader.
 
-use std::{
-    fs,
-    panic::catch_unwind,
-    path::PathBuf,
-    time::{Duration, Instant},
-};
+use std::{fs, panic::catch_unwind, path::PathBuf};
 
 use proptest::prelude::*;
 
@@ -32,14 +27,10 @@ fn every_hostile_file_ends_in_a_dataset_or_an_error() {
     assert!(paths.len() > 60);
     for path in paths {
         let name = path.file_name().unwrap().to_string_lossy().into_owned();
-        let start = Instant::now();
         let Ok(result) = catch_unwind(|| read_mesh(&path, &ReadOptions::default())) else {
             wrong.push(format!("{name}: panics"));
             continue;
         };
-        if start.elapsed() > Duration::from_secs(20) {
-            wrong.push(format!("{name}: took {:?}", start.elapsed()));
-        }
         match result {
             Ok(loaded) => eprintln!("{name}: {} {:?}", loaded.format, loaded.warnings),
             Err(error) => {

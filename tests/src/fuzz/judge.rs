@@ -3,17 +3,16 @@
 use std::fs;
 use std::io;
 use std::panic::{AssertUnwindSafe, catch_unwind};
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use tetrascope::{
-    Backend, Cells, Choice, DataArray, Dataset, Error, IoError, ReadOptions, SceneFile, Silent, StructuredBlock,
-    Volume, read_exr, read_heights, read_mesh, read_picture, read_png, render_volume,
+    Backend, Choice, ReadOptions, SceneFile, Silent, Volume, read_exr, read_heights, read_mesh, read_picture, read_png,
+    render_volume,
 };
+use tetrascope_colors::read_presets;
 
+use super::promises::{cell_count, check_dataset, check_length, check_presets, check_words, is_read};
 use super::{Target, corpus};
-
-/// Longest message, and longest warning, in bytes: names and words of a file are in it, but not whole files.
-const LONGEST_MESSAGE: usize = 4096;
 
 /// Points and cells of a mesh that is drawn as well.
 const DRAWN: usize = 4096;
@@ -37,6 +36,12 @@ pub const fn most_allocated(target: Target, length: usize) -> usize {
     let (times, more) = match target {
         Target::VtuText | Target::VtuBase64 | Target::VtuRaw | Target::VtuCompressed => (1 << 11, 96 << 20),
         Target::VtkText | Target::VtkBinary => (1 << 9, 1 << 20),
+        Target::VtkGrid | Target::Vti | Target::Vtr | Target::Vts | Target::VtkNaming | Target::Raw | Target::Nrrd => {
+            (1 << 12, 256 << 20)
+        }
+        Target::MshText | Target::MshBinary | Target::Openfoam => (1 << 11, 96 << 20),
+        Target::Exodus | Target::ExodusHdf5 | Target::Vtkhdf => (1 << 11, 96 << 20),
+        Target::PresetJson | Target::PresetXml => (1 << 11, 1 << 20),
         Target::Plot3dGrid | Target::Plot3dSolution => (1 << 10, 64 << 20),
         Target::Heights => (16, 1 << 16),
         Target::Png | Target::Exr => (1 << 14, 256 << 20),
@@ -58,7 +63,11 @@ impl Judge {
     /// # Errors
     /// If there is no folder for temporary files.
     pub fn new(allocated: fn() -> usize) -> io::Result<Self> {
-        Ok(Self { folder: tempfile::tempdir()?, allocated })
+        let folder = tempfile::tempdir()?;
+        for (name, bytes) in corpus::companions() {
+            fs::write(folder.path().join(name), bytes)?;
+        }
+        Ok(Self { folder, allocated })
     }
 
     /// Reads a file of a target, and draws what was read if it is small.
@@ -74,10 +83,50 @@ impl Judge {
         })
     }
 
+    /// Writes a file below the folder.
+    fn write(&self, name: &str, bytes: &[u8]) -> Result<PathBuf, String> {
+        let path = self.folder.path().join(name);
+        path.parent()
+            .map_or(Ok(()), fs::create_dir_all)
+            .and_then(|()| fs::write(&path, bytes))
+            .map_err(|e| e.to_string())?;
+        Ok(path)
+    }
+
+    /// Puts an input where its reader finds it: the path to read, or `None` where what was said of it is refused.
+    fn lay(&self, target: Target, bytes: &[u8], options: &mut ReadOptions) -> Result<Option<PathBuf>, String> {
+        let name = format!("hostile.{}", target.extension());
+        match target {
+            Target::Plot3dSolution => {
+                let (grid, solution) = corpus::split(bytes);
+                options.solution = Some(self.write("solution.q", solution)?);
+                self.write(&name, grid).map(Some)
+            }
+            Target::Raw => {
+                let (word, samples) = corpus::word_and_samples(bytes);
+                match word.parse() {
+                    Ok(volume) => {
+                        options.raw = Some(volume);
+                        self.write(&name, samples).map(Some)
+                    }
+                    Err(problem) => check_length(&problem).map(|()| None),
+                }
+            }
+            Target::Openfoam => {
+                for (name, file) in corpus::openfoam::FILES.iter().zip(corpus::openfoam::files(bytes)) {
+                    self.write(&format!("case/{name}"), file)?;
+                }
+                Ok(Some(self.folder.path().join("case")))
+            }
+            _ => self.write(&name, bytes).map(Some),
+        }
+    }
+
     fn run(&self, target: Target, bytes: &[u8]) -> Result<Verdict, String> {
-        let path = self.folder.path().join(format!("hostile.{}", target.extension()));
-        let (first, second) = if target == Target::Plot3dSolution { corpus::split(bytes) } else { (bytes, &[][..]) };
-        fs::write(&path, first).map_err(|e| e.to_string())?;
+        let mut options = ReadOptions::default();
+        let Some(path) = self.lay(target, bytes, &mut options)? else {
+            return Ok(Verdict { is_read: false, is_drawn: false, allocated: 0 });
+        };
         let before = (self.allocated)();
         let spent = || {
             let allocated = (self.allocated)() - before;
@@ -127,17 +176,28 @@ impl Judge {
                     }
                 }
             }
-            _ => {
-                let solution = self.folder.path().join("solution.q");
-                if target == Target::Plot3dSolution {
-                    fs::write(&solution, second).map_err(|e| e.to_string())?;
-                }
-                let result = read_mesh(
-                    &path,
-                    &ReadOptions::with_solution((target == Target::Plot3dSolution).then_some(solution.as_path())),
-                );
+            Target::PresetJson | Target::PresetXml => {
+                let name = path.display().to_string();
+                let result = read_presets(&name, bytes);
                 let allocated = spent()?;
-                let is_read = is_read(&result, &[&path, &solution])?;
+                match result {
+                    Ok(presets) => {
+                        presets.warnings().iter().try_for_each(|warning| check_length(warning))?;
+                        check_presets(&presets)?;
+                        Ok(Verdict { is_read: true, is_drawn: true, allocated })
+                    }
+                    Err(error) => {
+                        check_words(&error.to_string(), &[&path])?;
+                        Ok(Verdict { is_read: false, is_drawn: false, allocated })
+                    }
+                }
+            }
+            _ => {
+                let result = read_mesh(&path, &options);
+                let allocated = spent()?;
+                // Of a file that is named, or goes with another, its own name is said, which begins with the folder's.
+                let beside = if target == Target::VtkNaming { self.folder.path().to_owned() } else { path.clone() };
+                let is_read = is_read(&result, &[&path, &beside, options.solution.as_deref().unwrap_or(&path)])?;
                 let Ok(loaded) = result else { return Ok(Verdict { is_read, is_drawn: false, allocated }) };
                 for warning in &loaded.warnings {
                     check_length(warning)?;
@@ -179,129 +239,4 @@ fn draw(volume: &Volume, mut scene: SceneFile) -> Result<(), String> {
         }
         Err(error) => check_length(&error.to_string()),
     }
-}
-
-fn cell_count(dataset: &Dataset) -> usize {
-    match &dataset.cells {
-        Cells::Unstructured(cells) => cells.connectivity.len().max(cells.kinds.len()),
-        Cells::Structured(blocks) => blocks.iter().map(StructuredBlock::point_count).sum(),
-    }
-}
-
-/// Whether it was read; an error has to name one of the files, a place, what is wrong and a remedy.
-fn is_read<T>(result: &Result<T, IoError>, paths: &[&Path]) -> Result<bool, String> {
-    let Err(error) = result else { return Ok(true) };
-    check_error(error)?;
-    check_words(&error.to_string(), paths)?;
-    Ok(false)
-}
-
-/// Fails unless an error of a file has all that its kind promises.
-///
-/// # Errors
-/// In words.
-pub(crate) fn check_error(error: &IoError) -> Result<(), String> {
-    let missing = |what: &str| Err(format!("the message has no {what}: {error}"));
-    match error {
-        IoError::Invalid { place, problem, remedy, .. } => {
-            for (text, what) in [(place, "place"), (problem, "problem"), (remedy, "remedy")] {
-                if text.trim().is_empty() {
-                    return missing(what);
-                }
-            }
-        }
-        IoError::Unsupported { what, remedy, .. } => {
-            for (text, what) in [(what, "problem"), (remedy, "remedy")] {
-                if text.trim().is_empty() {
-                    return missing(what);
-                }
-            }
-        }
-        IoError::Read { .. } => {}
-        _ => return Err(format!("a file is not written here: {error}")),
-    }
-    Ok(())
-}
-
-fn check_words(text: &str, paths: &[&Path]) -> Result<(), String> {
-    if !paths.iter().any(|path| text.contains(&path.display().to_string())) {
-        return Err(format!("the message does not name the file: {text}"));
-    }
-    check_length(text)
-}
-
-fn check_length(text: &str) -> Result<(), String> {
-    if text.len() > LONGEST_MESSAGE {
-        let start: String = text.chars().take(200).collect();
-        return Err(format!("a message of {} bytes: {start}...", text.len()));
-    }
-    if let Some(control) = text.chars().find(|c| c.is_control() && !"\n\t".contains(*c)) {
-        return Err(format!("a message has the control character {control:?}: {text:?}"));
-    }
-    Ok(())
-}
-
-/// Fails unless a dataset keeps what its types promise.
-fn check_dataset(dataset: &Dataset) -> Result<(), String> {
-    let broken = |what: &str| Err(format!("the dataset breaks its promise: {what}"));
-    let points = dataset.points.len();
-    let cells = match &dataset.cells {
-        Cells::Unstructured(cells) => {
-            let rows = &cells.offsets;
-            if rows.len() != cells.kinds.len() + 1 || rows[0] != 0 || !rows.is_sorted() {
-                return broken("offsets");
-            }
-            if rows.last() != Some(&cells.connectivity.len()) {
-                return broken("connectivity");
-            }
-            let faces = cells.polyhedra.iter().flatten().flatten();
-            if cells.connectivity.iter().chain(faces).any(|&point| point as usize >= points) {
-                return broken("a point that is not there");
-            }
-            if cells.kinds.iter().filter(|&&kind| kind == tetrascope::CellKind::Polyhedron).count()
-                != cells.polyhedra.len()
-            {
-                return broken("faces");
-            }
-            cells.kinds.len()
-        }
-        Cells::Structured(blocks) => {
-            let mut next = 0;
-            for block in blocks {
-                let hidden = block.hidden_points.len();
-                if block.first_point != next || !(hidden == 0 || hidden == block.point_count()) {
-                    return broken("blocks");
-                }
-                next += block.point_count();
-            }
-            if next != points {
-                return broken("points of blocks");
-            }
-            blocks.iter().map(StructuredBlock::cell_count).sum()
-        }
-    };
-    let fits = |array: &DataArray, tuples: usize| {
-        let values = tuples.checked_mul(array.components);
-        array.components > 0 && !array.name.is_empty() && values == Some(array.values.len())
-    };
-    for (arrays, tuples) in [(&dataset.point_arrays, points), (&dataset.cell_arrays, cells)] {
-        if let Some(array) = arrays.iter().find(|array| !fits(array, tuples)) {
-            return Err(format!(
-                "the array {:?} has not one tuple of {} for each of {tuples}",
-                array.name, array.components
-            ));
-        }
-    }
-    Ok(())
-}
-
-/// Where an error of the whole way from file to picture lies, for the tests of real files.
-///
-/// # Errors
-/// In words, if the error of a file has not all that its kind promises.
-pub fn check_whole(error: &Error, path: &Path) -> Result<(), String> {
-    if let Error::Io(error) = error {
-        check_error(error)?;
-    }
-    check_words(&error.to_string(), &[path, &PathBuf::from(path).with_extension("q")])
 }

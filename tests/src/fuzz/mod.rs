@@ -8,6 +8,7 @@
 pub mod corpus;
 mod judge;
 pub mod mutate;
+mod promises;
 mod reduce;
 
 use std::fmt;
@@ -15,7 +16,8 @@ use std::str::FromStr;
 
 use fastrand::Rng;
 
-pub use judge::{Judge, Verdict, check_whole, most_allocated};
+pub use judge::{Judge, Verdict, most_allocated};
+pub use promises::check_whole;
 pub use reduce::reduce;
 
 /// A reader, and the kind of files that it is given.
@@ -33,10 +35,40 @@ pub enum Target {
     VtkText,
     /// The same with binary numbers.
     VtkBinary,
+    /// VTK's legacy files of grids that are not unstructured, as text and binary.
+    VtkGrid,
+    /// VTK's XML files of images, in every encoding.
+    Vti,
+    /// The same of rectilinear grids.
+    Vtr,
+    /// The same of structured grids.
+    Vts,
+    /// VTK's files that name others: parallel files, collections, blocks and series.
+    VtkNaming,
+    /// Gmsh's files as text, versions 2.2 and 4.1.
+    MshText,
+    /// The same with binary numbers.
+    MshBinary,
+    /// NRRD in every encoding, attached and detached.
+    Nrrd,
+    /// Raw volumes, with the word that says what they hold.
+    Raw,
+    /// Exodus on NetCDF-3.
+    Exodus,
+    /// Exodus on NetCDF-4, which is HDF5.
+    ExodusHdf5,
+    /// VTKHDF: unstructured grids and images.
+    Vtkhdf,
+    /// OpenFOAM's cases: mesh and fields, text and binary.
+    Openfoam,
     /// PLOT3D's grids of every layout.
     Plot3dGrid,
     /// Grids with their solutions.
     Plot3dSolution,
+    /// ParaView's presets of colors as JSON.
+    PresetJson,
+    /// The same as XML.
+    PresetXml,
     /// Heights of the power order.
     Heights,
     /// PNG pictures of every kind.
@@ -51,15 +83,30 @@ pub enum Target {
 
 impl Target {
     /// Every one.
-    pub const ALL: [Self; 13] = [
+    pub const ALL: [Self; 28] = [
         Self::VtuText,
         Self::VtuBase64,
         Self::VtuRaw,
         Self::VtuCompressed,
         Self::VtkText,
         Self::VtkBinary,
+        Self::VtkGrid,
+        Self::Vti,
+        Self::Vtr,
+        Self::Vts,
+        Self::VtkNaming,
+        Self::MshText,
+        Self::MshBinary,
+        Self::Nrrd,
+        Self::Raw,
+        Self::Exodus,
+        Self::ExodusHdf5,
+        Self::Vtkhdf,
+        Self::Openfoam,
         Self::Plot3dGrid,
         Self::Plot3dSolution,
+        Self::PresetJson,
+        Self::PresetXml,
         Self::Heights,
         Self::Png,
         Self::Exr,
@@ -76,8 +123,23 @@ impl Target {
             Self::VtuCompressed => "vtu-compressed",
             Self::VtkText => "vtk-text",
             Self::VtkBinary => "vtk-binary",
+            Self::VtkGrid => "vtk-grid",
+            Self::Vti => "vti",
+            Self::Vtr => "vtr",
+            Self::Vts => "vts",
+            Self::VtkNaming => "vtk-naming",
+            Self::MshText => "msh-text",
+            Self::MshBinary => "msh-binary",
+            Self::Nrrd => "nrrd",
+            Self::Raw => "raw",
+            Self::Exodus => "exodus",
+            Self::ExodusHdf5 => "exodus-hdf5",
+            Self::Vtkhdf => "vtkhdf",
+            Self::Openfoam => "openfoam",
             Self::Plot3dGrid => "plot3d-grid",
             Self::Plot3dSolution => "plot3d-solution",
+            Self::PresetJson => "preset-json",
+            Self::PresetXml => "preset-xml",
             Self::Heights => "heights",
             Self::Png => "png",
             Self::Exr => "exr",
@@ -90,7 +152,21 @@ impl Target {
     pub fn extension(self) -> &'static str {
         match self {
             Self::VtuText | Self::VtuBase64 | Self::VtuRaw | Self::VtuCompressed => "vtu",
-            Self::VtkText | Self::VtkBinary => "vtk",
+            Self::VtkText | Self::VtkBinary | Self::VtkGrid => "vtk",
+            Self::Vti => "vti",
+            Self::Vtr => "vtr",
+            Self::Vts => "vts",
+            // Whatever they are: the content decides.
+            Self::VtkNaming => "pvd",
+            Self::MshText | Self::MshBinary => "msh",
+            Self::Nrrd => "nrrd",
+            // The word and the samples in one: see `corpus::word_and_samples`.
+            Self::Raw => "raw",
+            Self::Exodus | Self::ExodusHdf5 => "exo",
+            Self::Vtkhdf => "vtkhdf",
+            // All files of a case in one: see `corpus::openfoam`.
+            Self::Openfoam => "foam",
+            Self::PresetXml => "xml",
             Self::Plot3dGrid => "xyz",
             // A grid and a solution in one: see `corpus::split`.
             Self::Plot3dSolution => "xyzq",
@@ -98,7 +174,7 @@ impl Target {
             Self::Png => "png",
             Self::Exr => "exr",
             Self::SceneToml => "toml",
-            Self::SceneJson => "json",
+            Self::SceneJson | Self::PresetJson => "json",
         }
     }
 }

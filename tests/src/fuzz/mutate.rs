@@ -108,6 +108,16 @@ pub fn damaged(target: Target, mut file: Vec<u8>, rng: &mut Rng) -> Vec<u8> {
                 }
                 corpus::joined(&grid, &solution)
             }
+            Target::Openfoam => {
+                let mut files: Vec<Vec<u8>> = corpus::openfoam::files(&file).into_iter().map(<[u8]>::to_vec).collect();
+                let (one, other) = (rng.usize(..files.len()), rng.usize(..files.len()));
+                if rng.u8(..12) == 0 {
+                    files.swap(one, other);
+                } else {
+                    files[one] = once(target, std::mem::take(&mut files[one]), rng);
+                }
+                corpus::openfoam::joined(&files)
+            }
             Target::Png if rng.u8(..4) > 0 => png(&file, rng),
             _ => once(target, file, rng),
         };
@@ -116,11 +126,15 @@ pub fn damaged(target: Target, mut file: Vec<u8>, rng: &mut Rng) -> Vec<u8> {
 }
 
 fn once(target: Target, file: Vec<u8>, rng: &mut Rng) -> Vec<u8> {
-    let is_vtu = target.extension() == "vtu";
-    let has_words = !matches!(target, Target::Heights | Target::Png | Target::Exr);
+    let is_grid = matches!(target, Target::Vti | Target::Vtr | Target::Vts);
+    let is_xml = is_grid || target.extension() == "vtu" || matches!(target, Target::VtkNaming | Target::PresetXml);
+    let has_base64 = is_grid || matches!(target, Target::VtuBase64 | Target::VtuCompressed);
+    let is_scientific = matches!(target, Target::Exodus | Target::ExodusHdf5 | Target::Vtkhdf);
+    let has_words = !is_scientific && !matches!(target, Target::Heights | Target::Png | Target::Exr);
     match rng.u8(..10) {
-        0..3 if is_vtu => xml(file, rng),
-        3 if matches!(target, Target::VtuBase64 | Target::VtuCompressed) => inside_base64(file, rng),
+        0..3 if is_xml => xml(file, rng),
+        3 if has_base64 => inside_base64(file, rng),
+        0..6 if is_scientific => integer(file, rng),
         0..5 if has_words => word(file, rng),
         5 | 6 if has_words => line(file, rng),
         7 | 8 if target != Target::VtuText => integer(file, rng),

@@ -1,7 +1,7 @@
-//! NRRD files of the shared data set, as its description has them.
+//! NRRD files of the shared data set: positions and order of the samples. Counts and ranges are the crate's test of all shared files.
 
 use glam::DVec3;
-use tetrascope_mesh::{ArrayValues, Cells};
+use tetrascope_mesh::ArrayValues;
 
 use super::tests::sanity_check;
 use crate::{Loaded, ReadOptions, read_mesh, shared::shared};
@@ -11,36 +11,17 @@ fn load(file: &str) -> Option<Loaded> {
     Some(read_mesh(&path, &ReadOptions::default()).unwrap_or_else(|error| panic!("{error}")))
 }
 
-/// File, type, range, last point, and what its warnings say.
-type Row = (&'static str, &'static str, [f64; 2], [f64; 3], &'static [&'static str]);
-
-const FILES: &[Row] = &[
-    ("headsq/quarter.nhdr", "Int16", [0.0, 3926.0], [201.6, 201.6, 138.0], &["left-handed"]),
-    ("headsq_quarter_gzip.nrrd", "UInt16", [0.0, 3926.0], [201.6, 201.6, 138.0], &[]),
-    ("hydrogen_float_bigendian_raw.nrrd", "Float32", [0.0, 1.0], [63.0, 63.0, 63.0], &[]),
-    ("neghip.nhdr", "UInt8", [0.0, 255.0], [63.0, 63.0, 63.0], &[]),
-];
-
 #[test]
-fn shared_files_are_as_described() {
-    for &(file, kind, range, last, warnings) in FILES {
+fn shared_files_end_at_their_last_points() {
+    for (file, last) in [
+        ("headsq/quarter.nhdr", [201.6, 201.6, 138.0]),
+        ("headsq_quarter_gzip.nrrd", [201.6, 201.6, 138.0]),
+        ("hydrogen_float_bigendian_raw.nrrd", [63.0; 3]),
+        ("neghip.nhdr", [63.0; 3]),
+    ] {
         let Some(loaded) = load(&format!("volume/{file}")) else { return };
         sanity_check(&loaded.dataset);
-        let (points, cells) = if file.contains("quarter") { (380_928, 365_148) } else { (262_144, 250_047) };
-        assert_eq!(loaded.dataset.points.len(), points, "{file}");
-        let Cells::Structured(blocks) = &loaded.dataset.cells else { panic!() };
-        assert_eq!(blocks[0].cell_count(), cells, "{file}");
-        assert!((loaded.dataset.points[points - 1] - DVec3::from(last)).length() < 1e-9, "{file}");
-        let array = &loaded.dataset.point_arrays[0];
-        assert_eq!((array.values.type_name(), array.components), (kind, 1), "{file}");
-        let all = array.values.to_f64();
-        let found =
-            [all.iter().copied().fold(f64::INFINITY, f64::min), all.iter().copied().fold(f64::NEG_INFINITY, f64::max)];
-        assert_eq!(found, range, "{file}");
-        assert_eq!(loaded.warnings.len(), warnings.len(), "{file}: {:?}", loaded.warnings);
-        for (warning, words) in loaded.warnings.iter().zip(warnings) {
-            assert!(warning.contains(words), "{file}: {warning}");
-        }
+        assert!((*loaded.dataset.points.last().unwrap() - DVec3::from(last)).length() < 1e-9, "{file}");
     }
 }
 

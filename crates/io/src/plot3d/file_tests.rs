@@ -27,102 +27,30 @@ fn check_range(what: &str, values: impl IntoIterator<Item = f64>, expected: [f64
     }
 }
 
-struct Expected {
-    files: [&'static str; 2],
-    dims: &'static [[usize; 3]],
-    type_name: &'static str,
-    layout: &'static str,
-    density: [f64; 2],
-    momentum: [f64; 2],
-    energy: [f64; 2],
-}
+const SINGLE: &str = "binary, big-endian, 32-bit, no record marks, single-grid";
 
-const FILES: &[Expected] = &[
-    Expected {
-        files: ["bluntfinxyz.bin", "bluntfinq.bin"],
-        dims: &[[40, 32, 32]],
-        type_name: "Float32",
-        layout: "binary, big-endian, 32-bit, no record marks, single-grid, no iblank",
-        density: [0.1926, 4.9775],
-        momentum: [-3.7339, 5.7903],
-        energy: [0.768957, 25.161],
-    },
-    Expected {
-        files: ["combxyz.bin", "combq.bin"],
-        dims: &[[57, 33, 25]],
-        type_name: "Float32",
-        layout: "binary, big-endian, 32-bit, no record marks, single-grid, no iblank",
-        density: [0.197813, 0.710419],
-        momentum: [-392.29, 380.31],
-        energy: [0.0, 0.0],
-    },
-    Expected {
-        files: ["postxyz.bin", "postq.bin"],
-        dims: &[[38, 76, 38]],
-        type_name: "Float32",
-        layout: "binary, big-endian, 32-bit, no record marks, single-grid, with iblank",
-        density: [1.0, 1.0],
-        momentum: [-0.675631, 1.36175],
-        energy: [-0.541506, 4.39584],
-    },
-    Expected {
-        files: ["annulus_fortran_le_iblank.xyz", "annulus_fortran_le_iblank.q"],
-        dims: &[[13, 11, 9]],
-        type_name: "Float32",
-        layout: "binary, little-endian, 32-bit, with record marks, single-grid, with iblank",
-        density: [0.621599, 1.45465],
-        momentum: [-2.0, 1.63844],
-        energy: [2.28071, 4.24691],
-    },
-    Expected {
-        files: ["multi-bin.xyz", "multi-bin.q"],
-        dims: &[[8, 12, 12], [8, 12, 12]],
-        type_name: "Float64",
-        layout: "binary, little-endian, 64-bit, with record marks, multi-grid, no iblank",
-        density: [0.19896, 4.8283],
-        momentum: [-3.7236, 5.6949],
-        energy: [0.788637, 24.0777],
-    },
-    Expected {
-        files: ["multi-bin-C.xyz", "multi-bin-C.q"],
-        dims: &[[8, 12, 12], [8, 12, 12]],
-        type_name: "Float64",
-        layout: "binary, little-endian, 64-bit, no record marks, multi-grid, no iblank",
-        density: [0.19896, 4.8283],
-        momentum: [-3.7236, 5.6949],
-        energy: [0.788637, 24.0777],
-    },
-    Expected {
-        files: ["multi-ascii.xyz", "multi-ascii.q"],
-        dims: &[[8, 12, 12], [8, 12, 12]],
-        type_name: "Float64",
-        layout: "text, multi-grid, no iblank",
-        density: [0.19896, 4.8283],
-        momentum: [-3.7236, 5.6949],
-        energy: [0.788637, 24.0777],
-    },
+/// Grid, solution, and what the format says of their layout. Counts and ranges are the crate's test of all shared files.
+const FILES: &[(&str, &str, &str, &str)] = &[
+    ("bluntfinxyz.bin", "bluntfinq.bin", SINGLE, "no iblank"),
+    ("combxyz.bin", "combq.bin", SINGLE, "no iblank"),
+    ("postxyz.bin", "postq.bin", SINGLE, "with iblank"),
+    (
+        "annulus_fortran_le_iblank.xyz",
+        "annulus_fortran_le_iblank.q",
+        "binary, little-endian, 32-bit, with record marks, single-grid",
+        "with iblank",
+    ),
+    ("multi-bin.xyz", "multi-bin.q", "binary, little-endian, 64-bit, with record marks, multi-grid", "no iblank"),
+    ("multi-bin-C.xyz", "multi-bin-C.q", "binary, little-endian, 64-bit, no record marks, multi-grid", "no iblank"),
+    ("multi-ascii.xyz", "multi-ascii.q", "text, multi-grid", "no iblank"),
 ];
 
 #[test]
-fn sizes_layouts_and_ranges() {
-    for expected in FILES {
-        let [grid, solution] = expected.files;
+fn layouts_are_found() {
+    for (grid, solution, layout, iblank) in FILES {
         let Some(loaded) = load(grid, solution) else { return };
-        let Cells::Structured(blocks) = &loaded.dataset.cells else { panic!("{grid}") };
-        let dims: Vec<_> = blocks.iter().map(|block| block.dims).collect();
-        assert_eq!(dims, expected.dims, "{grid}");
-        let points = dims.iter().map(|d| d.iter().product::<usize>()).sum::<usize>();
-        assert_eq!(loaded.dataset.points.len(), points, "{grid}");
-        assert!(loaded.format.starts_with(&format!("PLOT3D, {}, ", expected.layout)), "{}", loaded.format);
-        for array in &loaded.dataset.point_arrays {
-            assert_eq!(array.tuple_count(), points, "{grid} {}", array.name);
-            let type_name = if array.name == "IBlank" { "Int32" } else { expected.type_name };
-            assert_eq!(array.values.type_name(), type_name, "{grid} {}", array.name);
-        }
+        assert!(loaded.format.starts_with(&format!("PLOT3D, {layout}, {iblank}, ")), "{}", loaded.format);
         assert_eq!(loaded.dataset.point_arrays[0].name, "Density");
-        check_range(grid, array(&loaded, "Density").component(0), expected.density);
-        check_range(grid, array(&loaded, "Momentum").values.to_f64(), expected.momentum);
-        check_range(grid, array(&loaded, "StagnationEnergy").component(0), expected.energy);
     }
 }
 

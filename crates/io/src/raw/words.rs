@@ -3,7 +3,7 @@
 use std::str::FromStr;
 
 use super::RawVolume;
-use crate::{SampleType, bytes::ByteOrder};
+use crate::{SampleType, bytes::ByteOrder, read::printable};
 
 /// What a word may be, for messages.
 const FORM: &str = "a raw volume is SIZE:TYPE and more, as in 64x64x64:uint8 or 64x64x93:int16:big:spacing=3.2,3.2,1.5; after the \
@@ -21,6 +21,12 @@ impl FromStr for RawVolume {
     /// # Errors
     /// A sentence that names the part and what it may be.
     fn from_str(word: &str) -> Result<Self, String> {
+        Self::of_word(word).map_err(printable)
+    }
+}
+
+impl RawVolume {
+    fn of_word(word: &str) -> Result<Self, String> {
         let mut parts = word.split(':').map(str::trim);
         let size = parts.next().and_then(size).ok_or_else(|| format!("`{word}` does not begin with a size; {FORM}"))?;
         let name = parts.next().ok_or_else(|| format!("`{word}` names no type; {FORM}"))?;
@@ -31,9 +37,7 @@ impl FromStr for RawVolume {
         }
         Ok(volume)
     }
-}
 
-impl RawVolume {
     fn add(&mut self, part: &str) -> Option<()> {
         if let Some(order) = byte_order(part) {
             self.order = order;

@@ -20,10 +20,6 @@ mod fuzz_tests;
 #[cfg(test)]
 mod hostile_tests;
 #[cfg(test)]
-mod shared_table;
-#[cfg(test)]
-mod shared_tests;
-#[cfg(test)]
 mod test_support;
 #[cfg(test)]
 pub(crate) use test_support::sanity_check;

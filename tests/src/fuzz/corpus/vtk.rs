@@ -47,11 +47,56 @@ fn parts(rng: &mut Rng) -> Vec<Part> {
     parts
 }
 
+/// A grid of another kind: structured points, rectilinear or structured, with what hides points.
+fn grid_parts(rng: &mut Rng) -> Vec<Part> {
+    let line = |text: &str| Line(text.to_owned());
+    let mut parts = vec![line("# vtk DataFile Version 3.0"), line("a title"), line("ENCODING")];
+    match rng.u8(..3) {
+        0 => {
+            let spacing = ["SPACING", "ASPECT_RATIO"][rng.usize(..2)];
+            parts.extend([
+                line("DATASET STRUCTURED_POINTS"),
+                line("DIMENSIONS 3 2 2"),
+                Line(format!("{spacing} 1 0.5 2")),
+                line("ORIGIN 1 2 3"),
+            ]);
+        }
+        1 => {
+            parts.extend([line("DATASET RECTILINEAR_GRID"), line("DIMENSIONS 3 2 2")]);
+            parts.extend([line("X_COORDINATES 3 float"), Floats(vec![0.0, 1.0, 4.0])]);
+            parts.extend([line("Y_COORDINATES 2 double"), Doubles(vec![0.0, 1.5])]);
+            parts.extend([line("Z_COORDINATES 2 int"), Ints(vec![-1, 1])]);
+        }
+        _ => {
+            parts.extend([line("DATASET STRUCTURED_GRID"), line("DIMENSIONS 3 2 2")]);
+            if rng.bool() {
+                let flags = (0..12).map(|_| u8::from(rng.u8(..8) > 0)).collect();
+                parts.extend([line("BLANKING 12 unsigned_char"), Bytes(flags)]);
+            }
+            let place = |n: usize| [(n % 3) as f32, (n / 3 % 2) as f32 + 0.1 * (n % 3) as f32, (n / 6) as f32];
+            parts.extend([line("POINTS 12 float"), Floats((0..12).flat_map(place).collect())]);
+        }
+    }
+    parts.extend([line("POINT_DATA 12"), line("SCALARS s float 1\nLOOKUP_TABLE default")]);
+    parts.push(Floats((0..12).map(|_| rng.f32()).collect()));
+    parts.extend([line("CELL_DATA 2"), line("FIELD FieldData 1"), line("vtkGhostType 1 2 unsigned_char")]);
+    parts.push(Bytes(vec![0, 32 * rng.u8(..2)]));
+    parts
+}
+
+pub(super) fn grid(rng: &mut Rng) -> Vec<u8> {
+    let parts = grid_parts(rng);
+    if rng.bool() { text_of(&parts) } else { binary_of(parts) }
+}
+
 pub(super) fn text(rng: &mut Rng) -> Vec<u8> {
+    text_of(&parts(rng))
+}
+
+fn text_of(parts: &[Part]) -> Vec<u8> {
     fn words<T: ToString>(values: &[T]) -> String {
         values.iter().map(ToString::to_string).collect::<Vec<_>>().join(" ")
     }
-    let parts = parts(rng);
     let lines = parts.iter().map(|part| match part {
         Line(text) => text.replace("ENCODING", "ASCII"),
         Floats(v) => words(v),
@@ -64,8 +109,15 @@ pub(super) fn text(rng: &mut Rng) -> Vec<u8> {
 }
 
 pub(super) fn binary(rng: &mut Rng) -> Vec<u8> {
+    let mut file = binary_of(parts(rng));
+    // Texts of one, two and four bytes of length, which text files have a line each for.
+    file.extend(b"FIELD more 1\nwords 1 2 string\n\xc2hi\x80\x02ho\n");
+    file
+}
+
+fn binary_of(parts: Vec<Part>) -> Vec<u8> {
     let mut file = Vec::new();
-    for part in parts(rng) {
+    for part in parts {
         match part {
             Line(text) => file.extend(text.replace("ENCODING", "BINARY").bytes()),
             Floats(v) => v.iter().for_each(|x| file.extend(x.to_be_bytes())),
@@ -76,7 +128,5 @@ pub(super) fn binary(rng: &mut Rng) -> Vec<u8> {
         }
         file.push(b'\n');
     }
-    // Texts of one, two and four bytes of length, which text files have a line each for.
-    file.extend(b"FIELD more 1\nwords 1 2 string\n\xc2hi\x80\x02ho\n");
     file
 }

@@ -177,11 +177,16 @@ impl VtuWriter {
         format!("{start} format=\"appended\" offset=\"{offset}\"/>\n")
     }
 
-    /// The file around pieces.
+    /// The file of an unstructured grid around pieces.
     pub fn file(self, pieces: &str) -> Vec<u8> {
+        self.file_of("UnstructuredGrid", "", pieces)
+    }
+
+    /// The file of another kind of grid, whose element has these attributes.
+    pub fn file_of(self, kind: &str, attributes: &str, pieces: &str) -> Vec<u8> {
         let mut file = format!(
-            "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"{}\" header_type=\"{}\"{}>\n\
-             <UnstructuredGrid>\n{pieces}</UnstructuredGrid>\n",
+            "<?xml version=\"1.0\"?>\n<VTKFile type=\"{kind}\" version=\"1.0\" byte_order=\"{}\" header_type=\"{}\"{}>\n\
+             <{kind} {attributes}>\n{pieces}</{kind}>\n",
             if self.big { "BigEndian" } else { "LittleEndian" },
             if self.wide { "UInt64" } else { "UInt32" },
             self.compressor.map_or_else(String::new, |c| format!(" compressor=\"{}\"", c.name())),
@@ -237,15 +242,29 @@ pub(super) fn piece(w: &mut VtuWriter, rng: &mut Rng) -> String {
 
 pub(super) fn file(target: Target, rng: &mut Rng) -> Vec<u8> {
     let pick = |rng: &mut Rng, all: &[Encoding]| all[rng.usize(..all.len())];
-    let binary = [Encoding::Base64, Encoding::AppendedBase64, Encoding::AppendedRaw];
     let (encoding, compressor) = match target {
         Target::VtuText => (Encoding::Text, None),
         Target::VtuRaw => (Encoding::AppendedRaw, None),
-        Target::VtuCompressed => (pick(rng, &binary), Some(Compressor::ALL[rng.usize(..3)])),
-        _ => (pick(rng, &binary[..2]), None),
+        Target::VtuCompressed => (pick(rng, &BINARY), Some(Compressor::ALL[rng.usize(..3)])),
+        _ => (pick(rng, &BINARY[..2]), None),
     };
-    let mut writer = VtuWriter::new(encoding, compressor);
-    (writer.big, writer.wide, writer.block) = (rng.bool(), rng.bool(), [16, 64, 32768][rng.usize(..3)]);
+    let mut writer = writer_of(encoding, compressor, rng);
     let pieces: String = (0..rng.usize(1..3)).map(|_| piece(&mut writer, rng)).collect();
     writer.file(&pieces)
+}
+
+const BINARY: [Encoding; 3] = [Encoding::Base64, Encoding::AppendedBase64, Encoding::AppendedRaw];
+
+fn writer_of(encoding: Encoding, compressor: Option<Compressor>, rng: &mut Rng) -> VtuWriter {
+    let mut writer = VtuWriter::new(encoding, compressor);
+    (writer.big, writer.wide, writer.block) = (rng.bool(), rng.bool(), [16, 64, 32768][rng.usize(..3)]);
+    writer
+}
+
+/// A writer of any encoding.
+pub(super) fn writer(rng: &mut Rng) -> VtuWriter {
+    match rng.usize(..6) {
+        at @ 0..3 => writer_of(BINARY[at], rng.bool().then(|| Compressor::ALL[rng.usize(..3)]), rng),
+        _ => writer_of(Encoding::Text, None, rng),
+    }
 }
