@@ -210,7 +210,7 @@ impl VolumeField<'_> {
 /// Cells that may have a volume.
 fn cell_count(cells: &Cells) -> usize {
     match cells {
-        Cells::Unstructured(cells) => cells.kinds.iter().filter(|kind| **kind != CellKind::Flat).count(),
+        Cells::Unstructured(cells) => cells.kinds.iter().filter(|kind| !kind.is_flat()).count(),
         Cells::Structured(blocks) => blocks.iter().map(StructuredBlock::cell_count).sum(),
     }
 }
