@@ -6,12 +6,16 @@
 
 mod args;
 mod check;
+mod colormaps;
 mod compare;
+mod convert;
 mod devices;
 mod info;
 mod interrupt;
+mod kinds;
 mod plan;
 mod progress;
+mod read_args;
 mod render;
 mod report;
 mod sample;
@@ -35,6 +39,8 @@ const fn help_of(command: Option<&Command>) -> &'static str {
         Some(Command::Devices(_)) => "tetrascope devices --help",
         Some(Command::Plan(_)) => "tetrascope plan --help",
         Some(Command::Compare(_)) => "tetrascope compare --help",
+        Some(Command::Convert(_)) => "tetrascope convert --help",
+        Some(Command::Colormaps(_)) => "tetrascope colormaps --help",
     }
 }
 
@@ -102,6 +108,8 @@ fn run(cli: &Cli) -> Result<(), Failure> {
         Some(Command::Devices(args)) => devices::run(args),
         Some(Command::Plan(args)) => plan::run(args),
         Some(Command::Compare(args)) => compare::run(args),
+        Some(Command::Convert(args)) => convert::run(args),
+        Some(Command::Colormaps(args)) => colormaps::run(args),
     }
 }
 

@@ -7,7 +7,7 @@
 
 use std::collections::HashSet;
 
-use tetrascope_mesh::{ArrayValues, CellKind, Cells, Dataset};
+use tetrascope_mesh::{ArrayValues, Cells, Dataset};
 
 use crate::vtk::named::NamedArrays;
 use crate::{IoError, Loaded, MeshReader, Source};

@@ -43,22 +43,22 @@ impl<'a> Layout<'a> {
     /// The arrays of the element `Cells`.
     pub(super) fn elements(&self, points: usize) -> Vec<Element<'_>> {
         let cells = self.cells.as_ref();
-        let (count, entries) = (cells.kinds.len(), cells.connectivity.len());
+        let entries = cells.connectivity.len();
         let one = |name: &str, numbers| Element { name: name.to_owned(), components: 1, numbers };
-        let types = || {
+        let types = move || {
             let number = |cell| type_of(cells, cell).unwrap_or_default();
-            ArrayValues::U8((0..count).map(number).collect())
+            ArrayValues::U8((0..cells.kinds.len()).map(number).collect())
         };
         let mut elements = vec![
             one(
                 "connectivity",
-                Numbers::of_indices(entries, points, || cells.connectivity.iter().map(|&point| i64::from(point))),
+                Numbers::of_indices(points, || cells.connectivity.iter().map(|&point| i64::from(point))),
             ),
             one(
                 "offsets",
-                Numbers::of_indices(count, entries, || cells.offsets.iter().skip(1).map(|&end| end as i64)),
+                Numbers::of_indices(entries, || cells.offsets.iter().skip(1).map(|&end| end as i64)),
             ),
-            one("types", Numbers::made("UInt8", count, types)),
+            one("types", Numbers::made("UInt8", types)),
         ];
         if !cells.polyhedra.is_empty() {
             let entries: usize = cells.polyhedra.iter().map(|faces| stream_length(faces)).sum();
@@ -66,9 +66,9 @@ impl<'a> Layout<'a> {
             let limit = points.max(entries);
             elements.push(one(
                 "faces",
-                Numbers::of_indices(entries, limit, || cells.polyhedra.iter().flat_map(|faces| stream(faces))),
+                Numbers::of_indices(limit, || cells.polyhedra.iter().flat_map(|faces| stream(faces))),
             ));
-            elements.push(one("faceoffsets", Numbers::of_indices(count, limit, || face_ends(cells))));
+            elements.push(one("faceoffsets", Numbers::of_indices(limit, || face_ends(cells))));
         }
         elements
     }

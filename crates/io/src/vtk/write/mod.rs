@@ -103,10 +103,7 @@ fn sections<'a>(dataset: &'a Dataset, layout: &'a Layout<'a>, said: &mut Written
         if let Some(name) = name_of("cell", array, layout.all, &mut said.warnings) {
             let numbers = match &layout.kept {
                 None => Numbers::of(&array.values),
-                Some(kept) => {
-                    let count = kept.len() * array.components;
-                    Numbers::made(array.values.type_name(), count, || gathered(array, kept))
-                }
+                Some(kept) => Numbers::made(array.values.type_name(), || gathered(array, kept)),
             };
             cell_data.push(element(name, array, numbers));
         }

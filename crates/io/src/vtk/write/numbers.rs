@@ -9,19 +9,18 @@ use tetrascope_mesh::ArrayValues;
 /// The numbers of an element, which may be made only when they are written, so that no two of them are in memory at a time.
 pub(super) struct Numbers<'a> {
     pub(super) type_name: &'static str,
-    pub(super) count: usize,
     make: Box<dyn Fn() -> Cow<'a, ArrayValues> + 'a>,
 }
 
 impl<'a> Numbers<'a> {
     /// Those of an array.
     pub(super) fn of(values: &'a ArrayValues) -> Self {
-        Self { type_name: values.type_name(), count: values.len(), make: Box::new(|| Cow::Borrowed(values)) }
+        Self { type_name: values.type_name(), make: Box::new(|| Cow::Borrowed(values)) }
     }
 
-    /// Those that a function gives: as many, and of that type.
-    pub(super) fn made(type_name: &'static str, count: usize, make: impl Fn() -> ArrayValues + 'a) -> Self {
-        Self { type_name, count, make: Box::new(move || Cow::Owned(make())) }
+    /// Those that a function gives, which are of that type.
+    pub(super) fn made(type_name: &'static str, make: impl Fn() -> ArrayValues + 'a) -> Self {
+        Self { type_name, make: Box::new(move || Cow::Owned(make())) }
     }
 
     /// Coordinates, in 32 bits where these hold every one of them.
@@ -30,24 +29,23 @@ impl<'a> Numbers<'a> {
         // The bits are compared: the quiet NaN of 64 bits may have more of them than one of 32 can keep.
         if numbers().all(|x| f64::from(x as f32).to_bits() == x.to_bits()) {
             let single = move || ArrayValues::F32(numbers().map(|x| x as f32).collect());
-            Self::made("Float32", 3 * points.len(), single)
+            Self::made("Float32", single)
         } else {
-            Self::made("Float64", 3 * points.len(), move || ArrayValues::F64(numbers().collect()))
+            Self::made("Float64", move || ArrayValues::F64(numbers().collect()))
         }
     }
 
     /// Indices, in 32 bits if `limit`, which none of them is above, fits.
     pub(super) fn of_indices<I: Iterator<Item = i64>>(
-        count: usize,
         limit: usize,
         indices: impl Fn() -> I + 'a,
     ) -> Self {
         if i32::try_from(limit).is_ok() {
             // None is above the limit.
             let short = move || ArrayValues::I32(indices().map(|index| index as i32).collect());
-            Self::made("Int32", count, short)
+            Self::made("Int32", short)
         } else {
-            Self::made("Int64", count, move || ArrayValues::I64(indices().collect()))
+            Self::made("Int64", move || ArrayValues::I64(indices().collect()))
         }
     }
 
