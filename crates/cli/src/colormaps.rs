@@ -142,6 +142,7 @@ fn as_json(groups: &[Group], opacities: &[Opacity]) -> Value {
     };
     let maps: Vec<Value> =
         groups.iter().flat_map(|group| group.maps.iter().map(move |named| map(group, named))).collect();
-    let opacity = |opacity: &Opacity| json!({ "name": opacity.name(), "values": PLACES.map(|place| opacity.at(place)) });
+    let opacity =
+        |opacity: &Opacity| json!({ "name": opacity.name(), "values": PLACES.map(|place| opacity.at(place)) });
     json!({ "places": PLACES, "colormaps": maps, "opacities": opacities.iter().map(opacity).collect::<Vec<_>>() })
 }

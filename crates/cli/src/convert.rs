@@ -86,7 +86,8 @@ pub(crate) fn run(args: &ConvertArgs) -> Result<(), Failure> {
     check_target(output, &["vtu"], "meshes")?;
     for read in std::iter::once(input.as_path()).chain(solution) {
         if !is_builtin(read) && is_same_file(read, output) {
-            let problem = format!("{}: it would be replaced by what is read from it; name another file", output.display());
+            let problem =
+                format!("{}: it would be replaced by what is read from it; name another file", output.display());
             return Err(Failure::Usage(problem));
         }
     }
@@ -130,8 +131,7 @@ fn convert(
     bar.step("reading");
     let start = Instant::now();
     let Loaded { mut dataset, format, mut warnings, times, step } = args.read.read(input, solution)?;
-    keep_only(&mut dataset, &args.field)
-        .map_err(|error| Failure::Input(format!("{}: {error}", input.display())))?;
+    keep_only(&mut dataset, &args.field).map_err(|error| Failure::Input(format!("{}: {error}", input.display())))?;
     let mut notes = Vec::new();
     if args.tetrahedra {
         interrupt::go_on()?;
@@ -167,9 +167,8 @@ fn convert(
 
 /// Leaves the arrays of these names; all where there is none.
 fn keep_only(dataset: &mut Dataset, names: &[String]) -> Result<(), FieldError> {
-    let is_there = |name: &String| {
-        dataset.point_arrays.iter().chain(&dataset.cell_arrays).any(|array| array.name == *name)
-    };
+    let is_there =
+        |name: &String| dataset.point_arrays.iter().chain(&dataset.cell_arrays).any(|array| array.name == *name);
     if let Some(name) = names.iter().find(|name| !is_there(name)) {
         return Err(FieldError::Unknown { name: name.clone(), known: summarize_arrays(dataset) });
     }

@@ -97,7 +97,11 @@ impl Lines {
     fn histogram(&mut self, histogram: &Histogram, width: usize, is_log: bool) {
         let Histogram { name, association, range, counts, non_finite } = histogram;
         let Some((low, high)) = range else {
-            let all = if *non_finite == 0 { "there is no value".to_owned() } else { format!("none of {non_finite} values is finite") };
+            let all = if *non_finite == 0 {
+                "there is no value".to_owned()
+            } else {
+                format!("none of {non_finite} values is finite")
+            };
             self.say("histogram", &format!("of {name}: {all}"));
             return;
         };

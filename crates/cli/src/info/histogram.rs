@@ -59,8 +59,7 @@ impl Histogram {
     /// - `rows`: lines
     /// - `is_log`: heights by the logarithm of the counts, of one more so that 1 is not nothing
     pub(super) fn draw(&self, width: usize, rows: usize, is_log: bool) -> Vec<String> {
-        let columns: Vec<u64> =
-            self.counts.chunks(self.bins_a_column(width)).map(|bins| bins.iter().sum()).collect();
+        let columns: Vec<u64> = self.counts.chunks(self.bins_a_column(width)).map(|bins| bins.iter().sum()).collect();
         let wide = (width / columns.len().max(1)).max(1);
         let height = |count: u64| if is_log { (count as f64).ln_1p() } else { count as f64 };
         let highest = columns.iter().copied().map(height).fold(0.0, f64::max);

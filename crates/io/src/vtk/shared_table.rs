@@ -212,7 +212,13 @@ pub(super) const FILES: &[File] = &[
         name: "vtk/uGridEx.vtk",
         points: 27,
         cells: 12,
-        kinds: &[(CellKind::Flat, 6), (CellKind::FlatOf(6), 1), (CellKind::FlatOf(7), 1), (CellKind::Hexahedron, 2), (CellKind::Tetrahedron, 2)],
+        kinds: &[
+            (CellKind::Flat, 6),
+            (CellKind::FlatOf(6), 1),
+            (CellKind::FlatOf(7), 1),
+            (CellKind::Hexahedron, 2),
+            (CellKind::Tetrahedron, 2),
+        ],
         arrays: &[("point", "scalars", "Float32", 1, 0.0, 26.0, 0), ("point", "vectors", "Float32", 3, 0.0, 2.0, 0)],
     },
     File {

@@ -54,10 +54,7 @@ impl<'a> Layout<'a> {
                 "connectivity",
                 Numbers::of_indices(points, || cells.connectivity.iter().map(|&point| i64::from(point))),
             ),
-            one(
-                "offsets",
-                Numbers::of_indices(entries, || cells.offsets.iter().skip(1).map(|&end| end as i64)),
-            ),
+            one("offsets", Numbers::of_indices(entries, || cells.offsets.iter().skip(1).map(|&end| end as i64))),
             one("types", Numbers::made("UInt8", types)),
         ];
         if !cells.polyhedra.is_empty() {

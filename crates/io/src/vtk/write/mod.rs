@@ -8,8 +8,8 @@ use std::path::Path;
 
 use tetrascope_mesh::{ArrayValues, DataArray, Dataset, check_layout};
 
-use crate::picture::write_by;
 use crate::IoError;
+use crate::picture::write_by;
 use cells::{Layout, gathered};
 use file::{Element, Section};
 use numbers::Numbers;

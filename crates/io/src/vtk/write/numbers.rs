@@ -36,10 +36,7 @@ impl<'a> Numbers<'a> {
     }
 
     /// Indices, in 32 bits if `limit`, which none of them is above, fits.
-    pub(super) fn of_indices<I: Iterator<Item = i64>>(
-        limit: usize,
-        indices: impl Fn() -> I + 'a,
-    ) -> Self {
+    pub(super) fn of_indices<I: Iterator<Item = i64>>(limit: usize, indices: impl Fn() -> I + 'a) -> Self {
         if i32::try_from(limit).is_ok() {
             // None is above the limit.
             let short = move || ArrayValues::I32(indices().map(|index| index as i32).collect());

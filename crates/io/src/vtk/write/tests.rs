@@ -177,7 +177,8 @@ fn blocks_of_compression_may_be_full() {
 
 #[test]
 fn grids_become_hexahedra_without_what_is_hidden() {
-    let points: Vec<DVec3> = (0..18).map(|n| DVec3::new(f64::from(n % 3), f64::from(n / 3 % 3), f64::from(n / 9))).collect();
+    let points: Vec<DVec3> =
+        (0..18).map(|n| DVec3::new(f64::from(n % 3), f64::from(n / 3 % 3), f64::from(n / 9))).collect();
     let mut hidden_points = vec![false; 18];
     // The corner of the last of four cells alone.
     hidden_points[8] = true;
@@ -201,7 +202,8 @@ fn grids_become_hexahedra_without_what_is_hidden() {
 #[test]
 fn cells_of_no_kind_are_left_out_with_their_tuples() {
     let tetrahedron = [0, 1, 2, 3];
-    let faces = |turn: u32| -> Vec<Vec<u32>> { (0..4).map(|n| vec![(n + turn) % 4, (n + 1) % 4, (n + 2) % 4]).collect() };
+    let faces =
+        |turn: u32| -> Vec<Vec<u32>> { (0..4).map(|n| vec![(n + turn) % 4, (n + 1) % 4, (n + 2) % 4]).collect() };
     let dataset = Dataset {
         points: vec![DVec3::ZERO, DVec3::X, DVec3::Y, DVec3::Z],
         cells: Cells::Unstructured(UnstructuredCells {
@@ -254,8 +256,17 @@ fn cells_that_do_not_fit_together_are_refused() {
     };
     let kinds = vec![CellKind::Tetrahedron];
     refused(UnstructuredCells { kinds: kinds.clone(), ..UnstructuredCells::default() });
-    refused(UnstructuredCells { kinds: kinds.clone(), offsets: vec![0, 4], connectivity: vec![0, 1, 2, 4], polyhedra: Vec::new() });
-    refused(UnstructuredCells { kinds: vec![CellKind::Polyhedron], offsets: vec![0, 0], ..UnstructuredCells::default() });
+    refused(UnstructuredCells {
+        kinds: kinds.clone(),
+        offsets: vec![0, 4],
+        connectivity: vec![0, 1, 2, 4],
+        polyhedra: Vec::new(),
+    });
+    refused(UnstructuredCells {
+        kinds: vec![CellKind::Polyhedron],
+        offsets: vec![0, 0],
+        ..UnstructuredCells::default()
+    });
 }
 
 /// What a dataset is once it is written: cells that name their points, none of them hidden.

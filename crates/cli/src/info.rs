@@ -9,7 +9,9 @@ use std::path::PathBuf;
 use clap::Args;
 use console::Term;
 use tetrascope::mesh::{FaceAdjacency, MeshReport, check};
-use tetrascope::{ArraySummary, Association, Dataset, Field, FieldError, Loaded, decompose, select_field, summarize_arrays};
+use tetrascope::{
+    ArraySummary, Association, Dataset, Field, FieldError, Loaded, decompose, select_field, summarize_arrays,
+};
 
 use crate::Failure;
 use crate::read_args::ReadArgs;
@@ -88,8 +90,7 @@ pub(crate) fn run(args: &InfoArgs) -> Result<(), Failure> {
     let report = decompose(&loaded.dataset)
         .map(|decomposition| check(&decomposition, &FaceAdjacency::new(decomposition.mesh.tetrahedra())))
         .map_err(|error| error.to_string());
-    let facts =
-        Facts { path: path.clone(), arrays: summarize_arrays(&loaded.dataset), loaded, report, histogram };
+    let facts = Facts { path: path.clone(), arrays: summarize_arrays(&loaded.dataset), loaded, report, histogram };
     if args.json {
         object(&facts.as_json());
     } else {
