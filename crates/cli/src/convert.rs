@@ -92,7 +92,7 @@ pub(crate) fn run(args: &ConvertArgs) -> Result<(), Failure> {
         }
     }
     interrupt::will_write(output);
-    let bar = Bar::new(args.quiet || args.json);
+    let bar = Bar::new(args.quiet);
     let done = convert(args, input, solution, output, &bar);
     bar.clear();
     let converted = done?;

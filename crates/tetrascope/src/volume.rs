@@ -7,7 +7,7 @@ use std::time::{Duration, Instant};
 use tetrascope_cpu::{CpuRenderer, reference};
 use tetrascope_gpu::GpuError;
 use tetrascope_io::{ReadOptions, file_length, read_mesh};
-use tetrascope_mesh::{CellKind, Cells, Dataset, Decomposition, StructuredBlock, decompose};
+use tetrascope_mesh::{Cells, Dataset, Decomposition, StructuredBlock, decompose};
 use tetrascope_scene::{
     ArraySummary, Backend, Field, FieldOnMesh, MeshFacts, Plan, Progress, Rendered, Stage, Work, place_on_mesh,
     select_field, summarize_arrays,
