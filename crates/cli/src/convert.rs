@@ -212,7 +212,8 @@ impl Converted {
         }
         say("points", &self.written.points.to_string());
         let kinds: Vec<String> = self.cells.iter().map(|(name, count)| format!("{count} {name}")).collect();
-        say("cells", &format!("{} ({})", self.written.cells, kinds.join(", ")));
+        let kinds = if kinds.is_empty() { String::new() } else { format!(" ({})", kinds.join(", ")) };
+        say("cells", &format!("{}{kinds}", self.written.cells));
         for (subject, arrays) in [("of points", &self.point_arrays), ("of cells", &self.cell_arrays)] {
             let names = if arrays.is_empty() { "no arrays".to_owned() } else { arrays.join(", ") };
             say(subject, &names);

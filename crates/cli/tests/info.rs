@@ -133,6 +133,32 @@ fn steps_of_a_list() {
 }
 
 #[test]
+fn the_folder_of_a_case() {
+    let run = Run::new();
+    let file = |name: &str, class: &str, text: &str| {
+        let path = format!("case/{name}");
+        let folder = run.folder.path().join(&path);
+        std::fs::create_dir_all(folder.parent().unwrap()).unwrap();
+        run.write(&path, &format!("FoamFile {{ version 2.0; format ascii; class {class}; object a; }}\n{text}\n"));
+    };
+    file("constant/polyMesh/points", "vectorField", "4((0 0 0) (1 0 0) (0 1 0) (0 0 1))");
+    file("constant/polyMesh/faces", "faceList", "4(3(0 2 1) 3(0 1 3) 3(0 3 2) 3(1 2 3))");
+    file("constant/polyMesh/owner", "labelList", "4(0 0 0 0)");
+    file("constant/polyMesh/neighbour", "labelList", "0()");
+    file("constant/polyMesh/boundary", "polyBoundaryMesh", "1(walls { type wall; nFaces 4; startFace 0; })");
+    for (time, value) in [("0", 1), ("0.5", 2), ("1.5", 3)] {
+        let field = format!("dimensions [0 0 0 0 0 0 0]; internalField uniform {value}; boundaryField {{}}");
+        file(&format!("{time}/p"), "volScalarField", &field);
+    }
+    let text = run.good(&["info", "case", "--step", "1"]);
+    has(
+        &text,
+        &["OpenFOAM", "3 from time 0 to 1.5; read: step 1, time 0.5", "1  tetrahedron", "\"p\", 2 to 2", "all are 2"],
+    );
+    assert_eq!(run.json(&["info", "case", "--json"])["times"], json!([0.0, 0.5, 1.5]));
+}
+
+#[test]
 fn raw_volumes_and_the_sample() {
     let run = Run::new();
     run.write("scan.bin", "abcdefgh");

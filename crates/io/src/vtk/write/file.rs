@@ -58,16 +58,16 @@ impl Element<'_> {
 }
 
 impl Grid<'_> {
-    /// Writes it; gives its length.
-    pub(super) fn write(&self, file: &mut File, encoding: VtuEncoding) -> io::Result<u64> {
+    /// Writes it; gives its length, and how many numbers all arrays have.
+    pub(super) fn write(&self, file: &mut File, encoding: VtuEncoding) -> io::Result<[u64; 2]> {
         let mut out = BufWriter::with_capacity(PART, file);
-        match encoding {
+        let numbers = match encoding {
             VtuEncoding::Text => self.write_as_text(&mut out)?,
             VtuEncoding::Raw | VtuEncoding::Zlib => self.write_appended(&mut out, encoding == VtuEncoding::Zlib)?,
-        }
+        };
         out.write_all(b"</VTKFile>\n")?;
         out.flush()?;
-        out.stream_position()
+        Ok([out.stream_position()?, numbers])
     }
 
     /// All before the first section.
@@ -90,18 +90,22 @@ impl Grid<'_> {
         text
     }
 
-    fn write_as_text(&self, out: &mut impl Write) -> io::Result<()> {
+    fn write_as_text(&self, out: &mut impl Write) -> io::Result<u64> {
+        let mut numbers = 0;
         out.write_all(self.head(false).as_bytes())?;
         for section in &self.sections {
             writeln!(out, "<{}>", section.tag)?;
             for element in &section.elements {
                 writeln!(out, "{} format=\"ascii\">", element.tag())?;
-                write_text(&element.numbers.values(), out)?;
+                let values = element.numbers.values();
+                numbers += values.len() as u64;
+                write_text(&values, out)?;
                 writeln!(out, "\n</DataArray>")?;
             }
             writeln!(out, "</{}>", section.tag)?;
         }
-        out.write_all(b"</Piece>\n</UnstructuredGrid>\n")
+        out.write_all(b"</Piece>\n</UnstructuredGrid>\n")?;
+        Ok(numbers)
     }
 
     /// Everything before the bytes, as long whatever the offsets are.
@@ -122,20 +126,23 @@ impl Grid<'_> {
         text
     }
 
-    fn write_appended(&self, out: &mut (impl Write + Seek), is_compressed: bool) -> io::Result<()> {
+    fn write_appended(&self, out: &mut (impl Write + Seek), is_compressed: bool) -> io::Result<u64> {
+        let mut numbers = 0;
         let mut offsets = Vec::new();
         out.write_all(self.elements(is_compressed, &offsets).as_bytes())?;
         let mut at = 0;
         for element in self.sections.iter().flat_map(|section| &section.elements) {
             offsets.push(at);
             let values = element.numbers.values();
+            numbers += values.len() as u64;
             at += if is_compressed { write_compressed(&values, out)? } else { write_raw(&values, out)? };
         }
         out.write_all(APPENDED_END.as_bytes())?;
         let end = out.stream_position()?;
         out.rewind()?;
         out.write_all(self.elements(is_compressed, &offsets).as_bytes())?;
-        out.seek(SeekFrom::Start(end)).map(drop)
+        out.seek(SeekFrom::Start(end))?;
+        Ok(numbers)
     }
 }
 

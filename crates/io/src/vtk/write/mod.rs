@@ -9,6 +9,7 @@ use std::path::Path;
 use tetrascope_mesh::{ArrayValues, DataArray, Dataset, check_layout};
 
 use crate::IoError;
+use crate::budget::Budget;
 use crate::picture::write_by;
 use cells::{Layout, gathered};
 use file::{Element, Section};
@@ -82,10 +83,17 @@ pub fn write_vtu_with(path: &Path, dataset: &Dataset, options: &VtuOptions) -> R
         warn_of_non_finite(dataset, &mut said.warnings);
     }
     let grid = file::Grid { points: said.points, cells: said.cells, time: options.time, sections };
+    let mut numbers = 0;
     write_by(path, |file| {
-        said.bytes = grid.write(file, options.encoding)?;
+        [said.bytes, numbers] = grid.write(file, options.encoding)?;
         Ok(())
     })?;
+    if numbers > Budget::of_length(said.bytes) {
+        said.warnings.push(format!(
+            "{numbers} numbers were compressed to {} bytes, which is refused here as too few when it is read again: write them raw",
+            said.bytes
+        ));
+    }
     Ok(said)
 }
 

@@ -317,3 +317,21 @@ fn shared_files_are_read_back_as_they_are_written() {
     }
     assert!(written > 80, "only {written} files are read");
 }
+
+#[test]
+fn what_is_compressed_beyond_what_is_read_is_said() {
+    let constant = |count: usize| Dataset {
+        points: vec![DVec3::ZERO; count],
+        point_arrays: vec![array("zero", 9, ArrayValues::U8(vec![0; 9 * count]))],
+        ..Dataset::default()
+    };
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("mesh.vtu");
+    for (count, encoding, is_read) in
+        [(50_000, VtuEncoding::Zlib, true), (200_000, VtuEncoding::Zlib, false), (200_000, VtuEncoding::Raw, true)]
+    {
+        let written = write_vtu_with(&path, &constant(count), &options(encoding)).unwrap();
+        assert_eq!(written.warnings.is_empty(), is_read, "{count}: {:?}", written.warnings);
+        assert_eq!(read_mesh(&path, &ReadOptions::default()).is_ok(), is_read, "{count}");
+    }
+}
