@@ -90,7 +90,7 @@ mod tests {
 
     #[test]
     fn strips_have_the_colors_of_the_map() {
-        let point = |x, color| ColorPoint { x, color };
+        let point = |x, rgb| ColorPoint { x, rgb };
         let map = ColorMap::new("mine", ColorSpace::Rgb, &[point(0.0, [0.0; 3]), point(1.0, [1.0, 0.5, 0.0])]).unwrap();
         assert_eq!(Paint::Nothing.swatch(&map), None);
         let strip = Paint::True.swatch(&map).unwrap();

@@ -77,7 +77,7 @@ impl<'a> CellBuilder<'a> {
     /// Both are reported by [`finish`](Self::finish).
     pub(crate) fn push(&mut self, kind_number: i64, points: &[i64]) -> Result<(), IoError> {
         let mut kind = self.kind(kind_number)?;
-        // Exodus's reader has no number for its shells and gives that of the empty cell.
+        // Exodus's reader gives the number of the empty cell to what its points tell well enough.
         if let (CellKind::Flat, Ok(number @ 1..)) = (kind, u8::try_from(kind_number))
             && number_of_flat(points.len()) != Some(number)
         {

@@ -702,7 +702,7 @@ pub(super) const FILES: &[File] = &[
         name: "vtu/quadraticTetra01.vtu",
         points: 22,
         cells: 3,
-        kinds: &[(CellKind::Flat, 2), (CellKind::QuadraticTetrahedron, 1)],
+        kinds: &[(CellKind::FlatOf(22), 2), (CellKind::QuadraticTetrahedron, 1)],
         arrays: &[("point", "scalars", "Float32", 1, 0.0, 1.0, 0)],
     },
 ];
