@@ -55,7 +55,6 @@ impl Decomposition {
                 }
             };
         }
-        #[expect(clippy::unnecessary_cast, reason = "one expression for all types, of which f64 is one")]
         let values = extended!(I8 f64::round, U8 f64::round, I16 f64::round, U16 f64::round, I32 f64::round, U32 f64::round,
             I64 f64::round, U64 f64::round, F32 std::convert::identity, F64 std::convert::identity);
         Some(DataArray { name: array.name.clone(), components, values })
