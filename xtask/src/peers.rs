@@ -1,10 +1,12 @@
-//! `cargo xtask peers`: gives the hard cases and known faults to VTK, and says how far its pictures, and ours, are from the reference.
+//! `cargo xtask peers`: gives the hard cases and known faults to VTK, and says how far its pictures, and ours, are from the reference; and
+//! lets it read the files that we write, of meshes of all kinds.
 //!
 //! VTK is reached through Python, each picture in a process of its own: some end in a signal. Nothing is installed or loaded; where
 //! there is no Python with the module `vtk`, the task says what to do, and is done.
 
 mod errors;
 mod faults;
+mod files;
 mod job;
 mod table;
 mod vtk;
@@ -37,6 +39,9 @@ pub(crate) struct Args {
     /// Only this case. The document stays as it is then.
     #[arg(long, value_name = "NAME")]
     case: Option<String>,
+    /// No pictures: only whether VTK reads what we write.
+    #[arg(long, conflicts_with = "case")]
+    files: bool,
 }
 
 /// The document that gets the table.
@@ -75,6 +80,12 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
         }
     };
     println!("VTK {version}; pictures and figures in {}", folder.display());
+    if args.case.is_none() {
+        files::run(&folder, &args.python)?;
+    }
+    if args.files {
+        return Ok(());
+    }
     let compare = |subject: &Subject| {
         let row = row(subject, &folder, &args.python, &script).map_err(|e| format!("{}: {e}", subject.name))?;
         println!("{}", row.line());

@@ -15,6 +15,9 @@ use values::{
     table_size, target_bits, wanted_error,
 };
 pub(crate) use values::{fraction, number, vector};
+use crate::colormaps::ColormapsArgs;
+use crate::convert::ConvertArgs;
+use crate::info::InfoArgs;
 
 /// Draws unstructured meshes as volumes.
 #[derive(Debug, Parser)]
@@ -36,6 +39,8 @@ const TOP_EXAMPLES: &str = "\
 Examples:
   tetrascope                               draw the built-in sample
   tetrascope info case.vtu                 what is in a file
+  tetrascope convert case.exo case.vtu     the same mesh for other programs
+  tetrascope colormaps                     which color maps have names
   tetrascope devices                       which graphics cards there are
   tetrascope check case.vtu                which visibility orders are right for it
   tetrascope study case.vtu                what accuracy costs in time
@@ -55,6 +60,10 @@ pub(crate) enum Command {
     Render(Box<RenderArgs>),
     /// Say what is in a mesh file and what is wrong with it.
     Info(InfoArgs),
+    /// Write a mesh file of any format that is read as a .vtu file, or the tetrahedra that are drawn.
+    Convert(ConvertArgs),
+    /// List the color maps and opacity curves that have names, with swatches.
+    Colormaps(ColormapsArgs),
     /// List the graphics cards, and say which of them `--backend auto` draws with.
     Devices(DevicesArgs),
     /// Say which visibility orders are right for a mesh, and where and by how much the others are wrong.
@@ -388,16 +397,6 @@ pub(crate) struct RenderArgs {
     /// Report nothing but warnings and errors
     #[arg(short, long, conflicts_with = "json", help_heading = "Report")]
     pub(crate) quiet: bool,
-}
-
-#[derive(Debug, Args)]
-pub(crate) struct InfoArgs {
-    /// A mesh file, or a PLOT3D grid and its solution
-    #[arg(required = true, num_args = 1..=2, value_name = "FILE")]
-    pub(crate) input: Vec<PathBuf>,
-    /// Report on standard output as one JSON object
-    #[arg(long)]
-    pub(crate) json: bool,
 }
 
 const DEVICES_NOTE: &str = "\

@@ -1,135 +1,133 @@
 //! `tetrascope info`: what is in a mesh file, and what is wrong with it.
 
-use std::collections::BTreeMap;
-use std::path::Path;
+mod drawn;
+mod histogram;
+mod said;
 
-use serde_json::{Value, json};
+use std::path::PathBuf;
+
+use clap::Args;
+use console::Term;
 use tetrascope::mesh::{FaceAdjacency, MeshReport, check};
 use tetrascope::{
-    ArraySummary, CellKind, Cells, Dataset, Loaded, ReadOptions, decompose, read_mesh, short, summarize_arrays,
+    ArraySummary, Association, Dataset, Field, FieldError, Loaded, decompose, select_field, summarize_arrays,
 };
 
 use crate::Failure;
-use crate::args::InfoArgs;
+use crate::read_args::ReadArgs;
 use crate::report::{line, object};
+use histogram::Histogram;
+
+const EXAMPLES: &str = "\
+Examples:
+  tetrascope info case.vtu
+  tetrascope info case.exo --step 0 --field Velocity:mag
+  tetrascope info grid.xyz solution.q --field Density --bins 20 --log
+  tetrascope info cavity/ --time 0.5                   the folder of an OpenFOAM case
+  tetrascope info scan.bin --raw 64x64x93:int16:big
+  tetrascope info case.vtu --json
+
+The histogram counts the points of an array of points, the cells of one of cells, each once whatever its size: all of them that have a finite value.
+
+Exit codes: 0 good, 1 wrong input or nothing in it that can be drawn, 2 wrong usage.";
+
+/// Say what is in a mesh file and what is wrong with it.
+#[derive(Debug, Args)]
+#[command(after_help = EXAMPLES)]
+pub(crate) struct InfoArgs {
+    /// A mesh file, a folder of OpenFOAM, or a PLOT3D grid and its solution
+    #[arg(required = true, num_args = 1..=2, value_name = "FILE")]
+    pub(crate) input: Vec<PathBuf>,
+    #[command(flatten)]
+    pub(crate) read: ReadArgs,
+    /// Array of the histogram: a name, or NAME:0, NAME:x, NAME:mag of a vector [default: what `render` would show]
+    #[arg(long, value_name = "NAME", help_heading = "Histogram")]
+    pub(crate) field: Option<String>,
+    /// Number of its bins [default: what fits the terminal; 64 with --json]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=4096), help_heading = "Histogram")]
+    pub(crate) bins: Option<u16>,
+    /// Draw it by the logarithm of the counts
+    #[arg(long, help_heading = "Histogram")]
+    pub(crate) log: bool,
+    /// Report on standard output as one JSON object
+    #[arg(long, help_heading = "Report")]
+    pub(crate) json: bool,
+}
+
+/// Columns where nobody says how many there are.
+const COLUMNS: usize = 80;
+/// Columns that a line begins with.
+const MARGIN: usize = 12;
+/// Bins for machines.
+const BINS: usize = 64;
+
+/// All that is known of a file.
+struct Facts {
+    path: PathBuf,
+    loaded: Loaded,
+    arrays: Vec<ArraySummary>,
+    /// Of the tetrahedra; else why there is none.
+    report: Result<MeshReport, String>,
+    /// Of the field; else why there is none. `None` where there is no array.
+    histogram: Option<Result<Histogram, String>>,
+}
 
 pub(crate) fn run(args: &InfoArgs) -> Result<(), Failure> {
     let [path, rest @ ..] = args.input.as_slice() else {
         return Err(Failure::Usage("name a file".to_owned()));
     };
-    let loaded = read_mesh(path, &ReadOptions::with_solution(rest.first().map(std::path::PathBuf::as_path)))
-        .map_err(tetrascope::Error::Io)?;
-    let arrays = summarize_arrays(&loaded.dataset);
+    let loaded = args.read.read(path, rest.first().map(PathBuf::as_path))?;
+    let width = columns().saturating_sub(MARGIN).max(1);
+    let bins = args.bins.map_or(if args.json { BINS } else { width }, usize::from);
+    let histogram = match histogram_of(&loaded.dataset, args.field.as_deref(), bins) {
+        Ok(histogram) => Some(Ok(histogram)),
+        // Whoever names a field has to hear that it is not there; a mesh alone is worth telling of.
+        Err(error) if args.field.is_some() => return Err(Failure::Input(format!("{}: {error}", path.display()))),
+        Err(FieldError::NoArrays) => None,
+        Err(error) => Some(Err(error.to_string())),
+    };
     // What was read is worth telling even where nothing can be drawn.
     let report = decompose(&loaded.dataset)
         .map(|decomposition| check(&decomposition, &FaceAdjacency::new(decomposition.mesh.tetrahedra())))
         .map_err(|error| error.to_string());
+    let facts = Facts { path: path.clone(), arrays: summarize_arrays(&loaded.dataset), loaded, report, histogram };
     if args.json {
-        object(&as_json(path, &loaded, &arrays, &report));
+        object(&facts.as_json());
     } else {
-        print(path, &loaded, &arrays, &report);
+        facts.lines(width, args.log).iter().for_each(|text| line(text));
     }
-    report.map(|_| ()).map_err(|error| Failure::Input(format!("{}: {error}", path.display())))
+    facts.report.map(|_| ()).map_err(|error| Failure::Input(format!("{}: {error}", path.display())))
 }
 
-fn print(path: &Path, loaded: &Loaded, arrays: &[ArraySummary], report: &Result<MeshReport, String>) {
-    let say = |subject: &str, text: &str| line(&format!("{subject:<12}{text}"));
-    say("file", &path.display().to_string());
-    say("format", &loaded.format);
-    say("points", &loaded.dataset.points.len().to_string());
-    let kinds = kinds(&loaded.dataset);
-    let count: usize = kinds.values().sum();
-    say("cells", &count.to_string());
-    for (kind, count) in &kinds {
-        say("", &format!("{count:>10}  {}", name_of(*kind)));
-    }
-    if let Ok(report) = report {
-        let counts = &report.decomposition;
-        let without_volume = match counts.no_volume {
-            0 => String::new(),
-            n => format!(", of which {n} have no volume"),
-        };
-        say("tetrahedra", &format!("{}{without_volume}; {} to draw", counts.tetrahedra, report.tetrahedra));
-        if let Some((low, high)) = report.bounds_world {
-            for (axis, low, high) in [("x", low.x, high.x), ("y", low.y, high.y), ("z", low.z, high.z)] {
-                say(if axis == "x" { "bounds" } else { "" }, &format!("{axis} {} to {}", short(low), short(high)));
-            }
-        }
-        say("volume", &short(report.volume_world));
-        say("boundary", &format!("{} faces, {} connected parts", report.boundary_faces, report.connected_parts));
-    }
-    if arrays.is_empty() {
-        say("arrays", "none: there is no scalar to draw");
-    }
-    for (index, array) in arrays.iter().enumerate() {
-        say(if index == 0 { "arrays" } else { "" }, &format!("{array}, {}", array.type_name));
-    }
-    let empty = Vec::new();
-    let findings = report.as_ref().map_or(empty, MeshReport::findings);
-    let odd: Vec<&String> = loaded.warnings.iter().chain(&findings).collect();
-    if odd.is_empty() && report.is_ok() {
-        say("findings", "none: the mesh is sound");
-    }
-    for (index, finding) in odd.into_iter().enumerate() {
-        say(if index == 0 { "findings" } else { "" }, finding);
-    }
+/// Columns of the terminal that standard output is.
+fn columns() -> usize {
+    Term::stdout().size_checked().map_or(COLUMNS, |(_, columns)| usize::from(columns))
 }
 
-fn as_json(path: &Path, loaded: &Loaded, arrays: &[ArraySummary], report: &Result<MeshReport, String>) -> Value {
-    let kinds: serde_json::Map<String, Value> =
-        kinds(&loaded.dataset).into_iter().map(|(kind, count)| (name_of(kind), json!(count))).collect();
-    let arrays: Vec<Value> = arrays
-        .iter()
-        .map(|array| {
-            json!({ "name": array.name, "association": array.association.to_string(), "type": array.type_name,
-                "components": array.components, "tuples": array.tuples, "non_finite": array.non_finite,
-                "range": array.range.map(|(low, high)| [low, high]) })
-        })
-        .collect();
-    let mut out = json!({ "file": path.display().to_string(), "format": loaded.format,
-        "points": loaded.dataset.points.len(), "cells": kinds, "arrays": arrays, "warnings": loaded.warnings });
-    let more = match report {
-        Ok(report) => json!({ "tetrahedra": report.tetrahedra, "tetrahedra_cut": report.decomposition.tetrahedra,
-            "tetrahedra_without_volume": report.decomposition.no_volume, "volume": report.volume_world,
-            "bounds": report.bounds_world.map(|(low, high)| [low.to_array(), high.to_array()]),
-            "boundary_faces": report.boundary_faces, "connected_parts": report.connected_parts,
-            "findings": report.findings() }),
-        Err(error) => json!({ "tetrahedra": 0, "error": error }),
+/// The histogram of the field of a name, or of the one that is shown without one.
+fn histogram_of(dataset: &Dataset, name: Option<&str>, bins: usize) -> Result<Histogram, FieldError> {
+    let field = select_field(dataset, name)?;
+    let of_cells = || of_cells(dataset, &field.name);
+    let values = match field.association {
+        Association::Point => None,
+        // The field has their means at points; what the file has is told here.
+        Association::Cell => of_cells(),
     };
-    if let (Value::Object(out), Value::Object(more)) = (&mut out, more) {
-        out.extend(more);
-    }
-    out
+    let (association, values) = match values {
+        Some(values) => (Association::Cell, values),
+        None => (Association::Point, field.values),
+    };
+    let Field { name, .. } = field;
+    Ok(Histogram::new(name, association, &values, bins))
 }
 
-fn kinds(dataset: &Dataset) -> BTreeMap<CellKind, usize> {
-    let mut kinds = BTreeMap::new();
-    match &dataset.cells {
-        Cells::Unstructured(cells) => cells.kinds.iter().for_each(|kind| *kinds.entry(*kind).or_default() += 1),
-        Cells::Structured(blocks) => {
-            let count: usize = blocks.iter().map(tetrascope::StructuredBlock::cell_count).sum();
-            if count > 0 {
-                kinds.insert(CellKind::Hexahedron, count);
-            }
-        }
+/// The numbers of a cell array under the full name of a field: `"c"`, `"c:1"`, `"c:mag"`.
+fn of_cells(dataset: &Dataset, name: &str) -> Option<Vec<f64>> {
+    let array = |name: &str| dataset.cell_arrays.iter().find(|array| array.name == name);
+    if let Some(array) = array(name).filter(|array| array.components == 1) {
+        return Some(array.component(0));
     }
-    kinds
-}
-
-/// `QuadraticTetrahedron` as "quadratic tetrahedron".
-fn name_of(kind: CellKind) -> String {
-    match kind {
-        CellKind::Flat => "point, line or face".to_owned(),
-        CellKind::Other(number) => format!("VTK type {number}"),
-        named => {
-            let mut words = String::new();
-            for letter in format!("{named:?}").chars() {
-                if letter.is_uppercase() && !words.is_empty() {
-                    words.push(' ');
-                }
-                words.extend(letter.to_lowercase());
-            }
-            words
-        }
-    }
+    let (name, part) = name.rsplit_once(':')?;
+    let array = array(name)?;
+    if part == "mag" { Some(array.magnitude()) } else { Some(array.component(part.parse().ok()?)) }
 }

@@ -7,12 +7,16 @@
 mod animate;
 mod args;
 mod check;
+mod colormaps;
 mod compare;
+mod convert;
 mod devices;
 mod info;
 mod interrupt;
+mod kinds;
 mod plan;
 mod progress;
+mod read_args;
 mod render;
 mod report;
 mod sample;
@@ -38,6 +42,8 @@ const fn help_of(command: Option<&Command>) -> &'static str {
         Some(Command::Plan(_)) => "tetrascope plan --help",
         Some(Command::Compare(_)) => "tetrascope compare --help",
         Some(Command::Animate(_)) => "tetrascope animate --help",
+        Some(Command::Convert(_)) => "tetrascope convert --help",
+        Some(Command::Colormaps(_)) => "tetrascope colormaps --help",
     }
 }
 
@@ -106,6 +112,8 @@ fn run(cli: &Cli) -> Result<(), Failure> {
         Some(Command::Plan(args)) => plan::run(args),
         Some(Command::Compare(args)) => compare::run(args),
         Some(Command::Animate(args)) => animate::run(args),
+        Some(Command::Convert(args)) => convert::run(args),
+        Some(Command::Colormaps(args)) => colormaps::run(args),
     }
 }
 

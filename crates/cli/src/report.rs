@@ -385,7 +385,8 @@ fn isosurfaces_of(plan: &Plan) -> Value {
     json!({ "count": values.len(), "values": values, "method": isosurfaces.method.name() })
 }
 
-fn seconds(time: Duration) -> String {
+/// A duration for people.
+pub(crate) fn seconds(time: Duration) -> String {
     let seconds = time.as_secs_f64();
     if seconds < 1.0 { format!("{:.1} ms", seconds * 1e3) } else { format!("{seconds:.2} s") }
 }

@@ -62,18 +62,21 @@ fn old_files() -> tempfile::TempDir {
         assert!(run(folder.path(), &args).status.success());
     }
     std::fs::create_dir(folder.path().join("study")).unwrap();
-    for name in ["a.png", "a.exr", "a.toml", "a.json", "e.png", "e.exr", "study/study.csv", "study/study.html"] {
+    for name in ["a.vtu", "a.png", "a.exr", "a.toml", "a.json", "e.png", "e.exr", "study/study.csv", "study/study.html"]
+    {
         std::fs::write(folder.path().join(name), format!("old {name}")).unwrap();
     }
     folder
 }
 
 /// Everything that is written, with the file that is named where there is no room for it.
-const WRITERS: [(&[&str], &str); 9] = [
+const WRITERS: [(&[&str], &str); 11] = [
     (&["render", "builtin:rings", "--size", "64", "-o", "a.png"], "a.png"),
     (&["render", "builtin:rings", "--size", "64", "-o", "a.exr"], "a.exr"),
     (&["render", "builtin:rings", "--size", "64", "-o", "new.exr", "-o", "a.png"], "new.exr"),
     (&["check", "builtin:rings", "--size", "64", "--order", "none", "--map", "a.png"], "a.png"),
+    (&["convert", "builtin:rings", "a.vtu"], "a.vtu"),
+    (&["convert", "builtin:rings", "new.vtu", "--tetrahedra", "--encoding", "zlib"], "new.vtu"),
     (&["compare", "1.exr", "2.exr", "-o", "e.png"], "e.png"),
     (&["compare", "1.exr", "2.exr", "-o", "e.exr"], "e.exr"),
     (&["study", "builtin:rings", "--quick", "--size", "16", "--frames", "1"], "study.csv"),

@@ -23,7 +23,12 @@ impl Budget {
 
     /// The numbers that a file may stand for.
     pub(crate) fn whole(source: &Source) -> u64 {
-        (source.bytes.len() as u64).saturating_mul(NUMBERS_PER_BYTE).saturating_add(NUMBERS_AT_LEAST)
+        Self::of_length(source.bytes.len() as u64)
+    }
+
+    /// The numbers that a file of so many bytes may stand for.
+    pub(crate) fn of_length(bytes: u64) -> u64 {
+        bytes.saturating_mul(NUMBERS_PER_BYTE).saturating_add(NUMBERS_AT_LEAST)
     }
 
     /// Takes so many numbers; nothing may be reserved for them before.

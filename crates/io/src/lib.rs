@@ -57,7 +57,7 @@ pub use picture::{
 pub use raw::RawVolume;
 pub use read::{Loaded, MeshReader, ReadOptions, Source, StepChoice};
 pub use sample::SampleType;
-pub use vtk::write_vtu;
+pub use vtk::{VtuEncoding, VtuOptions, WrittenVtu, write_vtu, write_vtu_with};
 
 /// Compiles the example of the README.
 #[cfg(doctest)]

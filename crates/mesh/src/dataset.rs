@@ -100,10 +100,20 @@ pub enum CellKind {
     BiquadraticQuadraticWedge,
     BiquadraticQuadraticHexahedron,
     QuadraticLinearWedge,
-    /// Points, lines and faces: they have no volume and are not drawn.
+    /// Points, lines and faces: they have no volume and are not drawn. One with one to four points is a point, a line, a triangle or a
+    /// quadrilateral; with more it is a cell that the file hides, or of a kind that nobody knows.
     Flat,
+    /// A point, line or face of which the number of points does not tell what it is; its number in VTK's list.
+    FlatOf(u8),
     /// A kind that is not known or not cut into tetrahedra; its number in VTK's list.
     Other(u8),
+}
+
+impl CellKind {
+    /// Whether cells of this kind have no volume.
+    pub fn is_flat(self) -> bool {
+        matches!(self, Self::Flat | Self::FlatOf(_))
+    }
 }
 
 /// A named array with `components` numbers a tuple.

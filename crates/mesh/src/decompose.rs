@@ -1,6 +1,7 @@
 //! Cells of any kind become tetrahedra, by one fixed rule.
 
 mod added;
+mod as_dataset;
 mod cell_data;
 mod counts;
 mod layout;
@@ -19,6 +20,7 @@ mod tests;
 pub use added::AddedPoint;
 pub use cell_data::cell_data_to_points;
 pub use counts::DecompositionCounts;
+pub use layout::check_layout;
 
 use rayon::prelude::*;
 
@@ -90,7 +92,7 @@ impl Decomposition {
 /// is left to draw, [`MeshError::TooLarge`] beyond 2³² - 1 points or 2³⁰ - 1 tetrahedra, and
 /// [`MeshError::Inconsistent`] where the layout of the cells breaks its own rules.
 pub fn decompose(dataset: &Dataset) -> Result<Decomposition, MeshError> {
-    layout::check(dataset)?;
+    check_layout(dataset)?;
     if dataset.points.is_empty() {
         return Err(MeshError::NoPoints);
     }

@@ -49,7 +49,7 @@ pub use adjacency::{CellFace, FaceAdjacency};
 pub use check::{MeshReport, check};
 pub use chords::{ChordLengths, chord_lengths, segment_lengths};
 pub use dataset::{ArrayValues, CellKind, Cells, DataArray, Dataset, StructuredBlock, UnstructuredCells};
-pub use decompose::{AddedPoint, Decomposition, DecompositionCounts, cell_data_to_points, decompose};
+pub use decompose::{AddedPoint, Decomposition, DecompositionCounts, cell_data_to_points, check_layout, decompose};
 pub use error::MeshError;
 pub use frame::Frame;
 pub use gradient::{point_gradients, vertex_gradients};

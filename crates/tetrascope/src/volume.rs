@@ -7,7 +7,7 @@ use std::time::{Duration, Instant};
 use tetrascope_cpu::{CpuRenderer, reference};
 use tetrascope_gpu::GpuError;
 use tetrascope_io::{ReadOptions, file_length, read_mesh};
-use tetrascope_mesh::{CellKind, Cells, Dataset, Decomposition, StructuredBlock, decompose};
+use tetrascope_mesh::{Cells, Dataset, Decomposition, StructuredBlock, decompose};
 use tetrascope_scene::{
     ArraySummary, Backend, Field, FieldError, FieldOnMesh, MeshFacts, Plan, Progress, Rendered, Stage, Work,
     place_on_mesh, select_cell_field, select_field, summarize_arrays,
@@ -229,7 +229,7 @@ impl VolumeField<'_> {
 /// Cells that may have a volume.
 fn cell_count(cells: &Cells) -> usize {
     match cells {
-        Cells::Unstructured(cells) => cells.kinds.iter().filter(|kind| **kind != CellKind::Flat).count(),
+        Cells::Unstructured(cells) => cells.kinds.iter().filter(|kind| !kind.is_flat()).count(),
         Cells::Structured(blocks) => blocks.iter().map(StructuredBlock::cell_count).sum(),
     }
 }

@@ -48,7 +48,8 @@ fn absence_is_said_with_what_to_do() {
 #[test]
 fn a_machine_without_vtk_is_no_failure() {
     let output = std::env::temp_dir().join(format!("tetrascope-peers-{}", std::process::id()));
-    let args = Args { python: "a-python-that-is-not-there".into(), output: Some(output.clone()), case: None };
+    let args =
+        Args { python: "a-python-that-is-not-there".into(), output: Some(output.clone()), case: None, files: true };
     run(&args).expect("it is skipped");
     fs::remove_dir_all(output).expect("the folder was made");
 }

@@ -13,6 +13,10 @@ use crate::IoError;
 use crate::vtk::cells::CellBuilder;
 use crate::vtk::scalars::to_indices;
 
+/// VTK's number for a cell that is nothing but its points.
+const POINTS: i64 = 2;
+const POLYGON: i64 = 7;
+
 /// Where a block's cells are.
 #[derive(Clone, Debug)]
 pub(super) struct Block {
@@ -148,11 +152,11 @@ fn push_block(
     let mut cell = Vec::new();
     for own in connectivity.chunks_exact(nodes) {
         match element {
-            Some(element) if !element.is_flat() => {
+            Some(element) => {
                 element.cell(own, &mut cell);
                 builder.push(element.vtk_type, &cell)?;
             }
-            _ => builder.push(0, own)?,
+            None => builder.push(POINTS, own)?,
         }
     }
     Ok(count)
@@ -168,7 +172,7 @@ fn push_polygons(file: &Netcdf<'_>, number: u64, builder: &mut CellBuilder<'_>) 
         let own = own.ok_or_else(|| builder.invalid(format!("it has {count} nodes, more than are listed")))?;
         at += own.len();
         let own: Vec<i64> = own.iter().map(|node| node.saturating_sub(1)).collect();
-        builder.push(0, &own)?;
+        builder.push(POLYGON, &own)?;
     }
     Ok(counts.len())
 }

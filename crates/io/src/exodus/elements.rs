@@ -16,7 +16,7 @@ pub(super) struct Element {
     pub(super) is_reduced: bool,
 }
 
-/// VTK's empty cell, for what has no volume or is not known.
+/// VTK's empty cell, for what has no volume and as many nodes as tell what it is, or a number of them that is not known.
 const EMPTY: i64 = 0;
 
 /// Exodus has the edges between bottom and top before those of the top; VTK has them last.
@@ -47,7 +47,7 @@ impl Element {
         } else if begins(&[
             "CIR", "SPH", "BAR", "TRU", "BEA", "ROD", "EDG", "LIN", "SPR", "TRI", "QUA", "SHE", "POI", "NSI",
         ]) {
-            return Some(Self { vtk_type: EMPTY, order: None, points: nodes, is_reduced: false });
+            return Some(Self { vtk_type: flat_type(&name, nodes), order: None, points: nodes, is_reduced: false });
         } else {
             return None;
         };
@@ -57,11 +57,6 @@ impl Element {
         Some(Self { vtk_type, order, points, is_reduced: points < nodes })
     }
 
-    /// What has no volume.
-    pub(super) fn is_flat(&self) -> bool {
-        self.vtk_type == EMPTY
-    }
-
     /// The nodes of an element in VTK's order.
     pub(super) fn cell(&self, nodes: &[i64], cell: &mut Vec<i64>) {
         cell.clear();
@@ -69,6 +64,20 @@ impl Element {
             Some(order) => cell.extend(order.iter().filter_map(|&node| nodes.get(usize::from(node)))),
             None => cell.extend(nodes.iter().take(self.points)),
         }
+    }
+}
+
+/// VTK's number for what has no volume. Of the second order both have the nodes amid edges in the order of the edges, and the center last.
+fn flat_type(name: &str, nodes: usize) -> i64 {
+    let is_line = ["BAR", "TRU", "BEA", "ROD", "EDG", "LIN", "SPR"].iter().any(|prefix| name.starts_with(prefix));
+    match (is_line, nodes) {
+        (true, 3) => 21,
+        (false, 5..) if name.starts_with("NSI") => 7,
+        (false, 6) => 22,
+        (false, 7) => 34,
+        (false, 8) => 23,
+        (false, 9) => 28,
+        _ => EMPTY,
     }
 }
 
@@ -116,7 +125,12 @@ mod tests {
             ("PYRAMID", 5, 14, false),
             ("PYRAMID13", 13, 27, false),
             ("PYRAMID14", 14, 27, true),
-            ("SHELL8", 8, EMPTY, false),
+            ("SHELL4", 4, EMPTY, false),
+            ("SHELL8", 8, 23, false),
+            ("SHELL9", 9, 28, false),
+            ("TRI6", 6, 22, false),
+            ("BAR3", 3, 21, false),
+            ("NSIDED", 6, 7, false),
             ("SPHERE", 1, EMPTY, false),
         ] {
             let element = Element::of(name, nodes).unwrap_or_else(|| panic!("{name}"));

@@ -282,8 +282,8 @@ fn odd_elements_are_kept_and_told_of() {
     ];
     let parts = Parts { points, blocks, ..Parts::default() };
     let loaded = read(file(&parts, NcWriteOptions::classic()), StepChoice::Last).unwrap();
-    use CellKind::{Flat, Hexahedron, Tetrahedron};
-    assert_eq!(cells(&loaded.dataset).kinds, [Hexahedron, Flat, Flat, Flat, Tetrahedron]);
+    use CellKind::{Flat, FlatOf, Hexahedron, Tetrahedron};
+    assert_eq!(cells(&loaded.dataset).kinds, [Hexahedron, FlatOf(2), FlatOf(2), Flat, Tetrahedron]);
     assert_eq!(loaded.dataset.cell_arrays[0].values.to_f64(), [10.0, 20.0, 20.0, 30.0, 40.0]);
     assert!(loaded.warnings[0].contains("2 elements are of the type `SUPER`"), "{:?}", loaded.warnings);
     assert!(loaded.warnings[1].contains("`HEX16` have 16 nodes"), "{:?}", loaded.warnings);

@@ -63,6 +63,10 @@ pub(super) fn element_type(number: i64) -> Option<ElementType> {
         17 => turned(20, CellKind::QuadraticHexahedron, HEXAHEDRON_20),
         18 => turned(15, CellKind::QuadraticWedge, WEDGE_15),
         19 => turned(13, CellKind::QuadraticPyramid, PYRAMID_13),
+        8 => whole(3, CellKind::FlatOf(21)),
+        9 => whole(6, CellKind::FlatOf(22)),
+        10 => whole(9, CellKind::FlatOf(28)),
+        16 => whole(8, CellKind::FlatOf(23)),
         _ => match (flat_nodes(number), higher_order(number)) {
             (Some(nodes), _) => whole(nodes, CellKind::Flat),
             (None, Some((nodes, kind, corners))) => {
@@ -79,13 +83,13 @@ fn flat_nodes(number: i64) -> Option<usize> {
     Some(match number {
         15 | 84..=89 | 132 | 133 => 1,
         1 | 67 | 70 | 134 => 2,
-        2 | 8 | 68 | 135 => 3,
+        2 | 68 | 135 => 3,
         3 | 26 | 138 | 140 => 4,
         27 => 5,
-        9 | 28 => 6,
+        28 => 6,
         62 => 7,
-        16 | 63 => 8,
-        10 | 20 | 64 => 9,
+        63 => 8,
+        20 | 64 => 9,
         21 | 65 => 10,
         66 => 11,
         22 | 39 => 12,

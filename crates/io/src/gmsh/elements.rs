@@ -199,7 +199,7 @@ impl<'a> Elements<'a> {
     /// The type of a number; `listed` is how many nodes the element itself says it has.
     fn known(&self, number: i64, listed: usize) -> Result<ElementType, IoError> {
         if POLYGONS.contains(&number) && listed > 0 {
-            return Ok(ElementType { nodes: listed, kind: CellKind::Flat, order: None, loss: Loss::None });
+            return Ok(ElementType { nodes: listed, kind: CellKind::FlatOf(7), order: None, loss: Loss::None });
         }
         element_type(number).ok_or_else(|| {
             let what = match number {

@@ -7,7 +7,7 @@
 
 use std::collections::HashSet;
 
-use tetrascope_mesh::{ArrayValues, CellKind, Cells, Dataset};
+use tetrascope_mesh::{ArrayValues, Cells, Dataset};
 
 use crate::vtk::named::NamedArrays;
 use crate::{IoError, Loaded, MeshReader, Source};
@@ -239,7 +239,7 @@ fn points_of_volumes(elements: &Elements<'_>, count: usize) -> Vec<bool> {
     let mut is_used = vec![false; count];
     for (kind, ends) in cells.kinds.iter().zip(cells.offsets.windows(2)) {
         let &[start, end] = ends else { continue };
-        if *kind == CellKind::Flat {
+        if kind.is_flat() {
             continue;
         }
         for &point in cells.connectivity.get(start..end).unwrap_or_default() {

@@ -98,7 +98,7 @@ impl Column {
         let empty = |place: &usize| self.counts.get(*place) == Some(&0);
         let (missing, of) = match self.owner {
             Owner::Elements => {
-                let drawn = |cell: &usize| cells.kinds.get(*cell).is_some_and(|&kind| kind != CellKind::Flat);
+                let drawn = |cell: &usize| cells.kinds.get(*cell).is_some_and(|kind| !kind.is_flat());
                 ((0..self.counts.len()).filter(empty).filter(drawn).count(), "cells")
             }
             _ => {

@@ -12,8 +12,8 @@ use tetrascope_view::LinearImage;
 pub use exr_file::{read_exr, write_exr};
 pub use png_file::{PngImage, encode_png, read_png, write_png};
 pub use read::{PictureFile, read_picture};
-pub(crate) use whole_file::write_whole;
 pub use whole_file::{check_writable, end_writing, make_folder, write_bytes, write_files};
+pub(crate) use whole_file::{write_by, write_whole};
 
 use crate::{IoError, read::extension};
 

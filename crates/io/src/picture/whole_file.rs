@@ -20,6 +20,11 @@ pub(crate) fn write_whole(path: &Path, bytes: &[u8]) -> Result<(), IoError> {
     try_write(path, |file| file.write_all(bytes)).map_err(|error| not_written(path, &error))
 }
 
+/// [`write_whole`] for what is not in memory at once.
+pub(crate) fn write_by(path: &Path, write: impl FnOnce(&mut fs::File) -> io::Result<()>) -> Result<(), IoError> {
+    try_write(path, write).map_err(|error| not_written(path, &error))
+}
+
 /// Writes a file that is complete in memory: a table, a page. It appears whole or not at all, and replaces one that was there.
 ///
 /// # Errors

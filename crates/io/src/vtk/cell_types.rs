@@ -42,9 +42,14 @@ pub(crate) fn kind_of(number: i64) -> Option<CellKind> {
 pub(crate) fn number_of(kind: CellKind) -> Option<u8> {
     match kind {
         CellKind::Polyhedron | CellKind::Flat => None,
-        CellKind::Other(number) => Some(number),
+        CellKind::FlatOf(number) | CellKind::Other(number) => Some(number),
         _ => (10..=33).find(|&number| kind_of(number.into()) == Some(kind)),
     }
+}
+
+/// The number of the plain point, line or face with so many points, and of the empty cell; nothing where several have as many.
+pub(crate) fn number_of_flat(points: usize) -> Option<u8> {
+    [0, 1, 3, 5, 9].get(points).copied()
 }
 
 /// How many points a cell of this kind has; nothing where the number varies or is not known.
@@ -62,7 +67,7 @@ pub(crate) fn point_count_of(kind: CellKind) -> Option<usize> {
         CellKind::QuadraticHexahedron => 20,
         CellKind::BiquadraticQuadraticHexahedron => 24,
         CellKind::TriquadraticHexahedron => 27,
-        CellKind::Polyhedron | CellKind::Flat | CellKind::Other(_) => return None,
+        CellKind::Polyhedron | CellKind::Flat | CellKind::FlatOf(_) | CellKind::Other(_) => return None,
     })
 }
 

@@ -3,7 +3,7 @@
 use tetrascope_mesh::{CellKind, UnstructuredCells};
 
 use super::DAMAGED;
-use super::cell_types::{kind_of, point_count_of};
+use super::cell_types::{kind_of, number_of_flat, point_count_of};
 use crate::{IoError, Source};
 
 /// The faces of one polyhedron, as point indices of its piece.
@@ -76,7 +76,13 @@ impl<'a> CellBuilder<'a> {
     /// Points beyond those that its kind has are left out; too few are kept, for the mesh to count the cell as malformed.
     /// Both are reported by [`finish`](Self::finish).
     pub(crate) fn push(&mut self, kind_number: i64, points: &[i64]) -> Result<(), IoError> {
-        let kind = self.kind(kind_number)?;
+        let mut kind = self.kind(kind_number)?;
+        // Exodus's reader gives the number of the empty cell to what its points tell well enough.
+        if let (CellKind::Flat, Ok(number @ 1..)) = (kind, u8::try_from(kind_number))
+            && number_of_flat(points.len()) != Some(number)
+        {
+            kind = CellKind::FlatOf(number);
+        }
         let mut used = points;
         if let Some(needed) = point_count_of(kind) {
             let number = self.number();

@@ -25,7 +25,7 @@ mod test_support;
 pub(crate) use test_support::sanity_check;
 
 pub(crate) use legacy::LegacyVtk;
-pub use write::write_vtu;
+pub use write::{VtuEncoding, VtuOptions, WrittenVtu, write_vtu, write_vtu_with};
 use xml::{BlocksReader, Kind, ParallelReader, PvdReader, SeriesReader, XmlReader};
 
 /// The reader of legacy files.

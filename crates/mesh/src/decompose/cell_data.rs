@@ -2,7 +2,7 @@
 
 use super::survey;
 use super::unstructured::Unstructured;
-use super::{layout, structured};
+use super::{check_layout, structured};
 use crate::{Cells, Dataset};
 
 /// The mean of a cell array over the cells around each point.
@@ -14,7 +14,7 @@ use crate::{Cells, Dataset};
 /// its size. A dataset whose layout is inconsistent gives NaN everywhere.
 pub fn cell_data_to_points(dataset: &Dataset, values: &[f64]) -> Vec<f64> {
     let point_count = dataset.points.len();
-    if layout::check(dataset).is_err() {
+    if check_layout(dataset).is_err() {
         return vec![f64::NAN; point_count];
     }
     let mut means = vec![0.0; point_count];

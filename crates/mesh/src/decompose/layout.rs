@@ -5,8 +5,12 @@ use crate::{CellKind, Cells, Dataset, MeshError, StructuredBlock, UnstructuredCe
 /// The most cells, so that 32 bits name one.
 const MOST_CELLS: usize = u32::MAX as usize;
 
-/// Refuses a dataset whose layout is not what [`UnstructuredCells`] and [`StructuredBlock`] promise.
-pub(super) fn check(dataset: &Dataset) -> Result<(), MeshError> {
+/// Refuses a dataset whose layout of cells is not what [`UnstructuredCells`] and [`StructuredBlock`] promise. Arrays are not looked at.
+///
+/// # Errors
+///
+/// [`MeshError::Inconsistent`], and [`MeshError::TooLarge`] beyond 2³² - 1 cells.
+pub fn check_layout(dataset: &Dataset) -> Result<(), MeshError> {
     let point_count = dataset.points.len();
     let cell_count = match &dataset.cells {
         Cells::Unstructured(cells) => {

@@ -76,7 +76,7 @@ impl Survey {
         kinds.count(view.kind);
         let counts = &mut self.counts;
         let is_malformed = match (view.kind, point_count(view.kind)) {
-            (CellKind::Flat, _) => {
+            (CellKind::Flat | CellKind::FlatOf(_), _) => {
                 counts.flat += 1;
                 self.taken.push(false);
                 return;

@@ -90,7 +90,7 @@ pub(super) fn point_count(kind: CellKind) -> Option<usize> {
         CellKind::Pyramid => Some(5),
         CellKind::PentagonalPrism => Some(10),
         CellKind::HexagonalPrism => Some(12),
-        CellKind::Polyhedron | CellKind::Flat | CellKind::Other(_) => None,
+        CellKind::Polyhedron | CellKind::Flat | CellKind::FlatOf(_) | CellKind::Other(_) => None,
         quadratic => recipe(quadratic).map(|recipe| recipe.own),
     }
 }
