@@ -10,14 +10,14 @@ use tetrascope::{
     OpticalModel, OrderMethod, Shading,
 };
 
+use crate::colormaps::ColormapsArgs;
+use crate::convert::ConvertArgs;
+use crate::info::InfoArgs;
 use values::{
     Points, color_points, extinction_points, isosurface, length_axis, opacity, range, raw_volume, shading, size,
     table_size, target_bits, wanted_error,
 };
 pub(crate) use values::{fraction, number, vector};
-use crate::colormaps::ColormapsArgs;
-use crate::convert::ConvertArgs;
-use crate::info::InfoArgs;
 
 /// Draws unstructured meshes as volumes.
 #[derive(Debug, Parser)]
