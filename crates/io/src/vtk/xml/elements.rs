@@ -15,9 +15,10 @@ use super::Kind;
 use super::appended::find_appended;
 use super::attributes::{Attributes, line, shorten};
 use super::compression::Compressor;
-use super::file::{ArrayElement, Piece, XmlFile, without_mark};
+use super::file::{Appended, ArrayElement, Piece, XmlFile, without_mark};
 use super::steps::{is_piece_a_step, keep_last_listed, last_step};
-use crate::{IoError, Source};
+use crate::progress::{Meter, ReadStage};
+use crate::{IoError, OpenFile, Source};
 
 /// What an open element is; all that matters for knowing where an array belongs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -36,7 +37,33 @@ enum Open {
 }
 
 /// Lists the arrays of a file of this kind.
-pub(super) fn parse<'a>(source: &'a Source, kind: Kind, budget: &'a Budget) -> Result<XmlFile<'a>, IoError> {
+///
+/// - `opened`: the file, where only its beginning is in memory, and [that is enough](is_enough)
+pub(super) fn parse<'a>(
+    source: &'a Source,
+    opened: Option<&'a OpenFile>,
+    kind: Kind,
+    budget: &'a Budget,
+) -> Result<XmlFile<'a>, IoError> {
+    let file = list(source, opened, kind, budget)?;
+    budget.grant(opened.map_or(source.bytes.len(), OpenFile::length));
+    Ok(file)
+}
+
+/// Whether the beginning of a file is all of it that has to be in memory. Where anything is wrong with it, it is not, as that is said of whole files.
+pub(super) fn is_enough(beginning: &Source, opened: &OpenFile, kind: Kind) -> bool {
+    let budget = Budget::new(kind.limit());
+    beginning.bytes.len() < opened.length()
+        && list(beginning, Some(opened), kind, &budget)
+            .is_ok_and(|file| matches!(file.appended, Some(Appended::Open { .. })))
+}
+
+fn list<'a>(
+    source: &'a Source,
+    opened: Option<&'a OpenFile>,
+    kind: Kind,
+    budget: &'a Budget,
+) -> Result<XmlFile<'a>, IoError> {
     let bytes = without_mark(&source.bytes);
     let mut reader = Reader::from_reader(bytes);
     // An empty element then looks like one with nothing in it.
@@ -50,12 +77,12 @@ pub(super) fn parse<'a>(source: &'a Source, kind: Kind, budget: &'a Budget) -> R
         pieces: Vec::new(),
         appended: None,
         budget,
+        meter: Meter::new(&source.path, &source.options, ReadStage::Decoding, source.bytes.len() as u64),
         lattice: Lattice::default(),
         field_data: Vec::new(),
         times: Vec::new(),
         step: 0,
     };
-    budget.grant(bytes.len());
     let mut whole_extent = None;
     let mut open: Vec<Open> = Vec::new();
     let mut root_seen = false;
@@ -87,7 +114,7 @@ pub(super) fn parse<'a>(source: &'a Source, kind: Kind, budget: &'a Budget) -> R
                         Open::Grid
                     }
                     (Some(Open::Root), "AppendedData") => {
-                        file.appended = Some(find_appended(&attributes, position(&reader))?);
+                        file.appended = Some(find_appended(&attributes, opened, position(&reader))?);
                         // The section is not XML: nothing behind this tag may be parsed as such.
                         break;
                     }
