@@ -53,8 +53,10 @@ fn check(args: &CheckArgs, bar: &Bar) -> Result<Value, Failure> {
 
     bar.step("reading and cutting into tetrahedra");
     let solution = scene.mesh.solution.as_ref().map(|path| resolve_path(&base_dir, path));
-    let volume =
-        Volume::load(&resolve_path(&base_dir, &scene.mesh.path), &ReadOptions::with_solution(solution.as_deref()))?;
+    let volume = Volume::load(
+        &resolve_path(&base_dir, &scene.mesh.path),
+        &ReadOptions { progress: bar.reading(), ..ReadOptions::with_solution(solution.as_deref()) },
+    )?;
     let field = volume.field(scene.mesh.field.as_deref())?;
     interrupt::go_on()?;
     bar.step("looking at the mesh");

@@ -35,8 +35,10 @@ fn plan(args: &PlanArgs, bar: &Bar) -> Result<Said, Failure> {
     let threads = args.scene.threads.map(usize::from);
     bar.step("reading and cutting into tetrahedra");
     let solution = scene.mesh.solution.as_ref().map(|path| resolve_path(&base_dir, path));
-    let volume =
-        Volume::load(&resolve_path(&base_dir, &scene.mesh.path), &ReadOptions::with_solution(solution.as_deref()))?;
+    let volume = Volume::load(
+        &resolve_path(&base_dir, &scene.mesh.path),
+        &ReadOptions { progress: bar.reading(), ..ReadOptions::with_solution(solution.as_deref()) },
+    )?;
     interrupt::go_on()?;
     let field = volume.field(scene.mesh.field.as_deref())?;
     bar.step("choosing methods");

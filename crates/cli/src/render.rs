@@ -85,8 +85,10 @@ impl Job<'_> {
         bar.step("reading and cutting into tetrahedra");
         let mesh = &self.scene.mesh;
         let solution = mesh.solution.as_ref().map(|path| resolve_path(&self.base_dir, path));
-        let volume =
-            Volume::load(&resolve_path(&self.base_dir, &mesh.path), &ReadOptions::with_solution(solution.as_deref()))?;
+        let volume = Volume::load(
+            &resolve_path(&self.base_dir, &mesh.path),
+            &ReadOptions { progress: bar.reading(), ..ReadOptions::with_solution(solution.as_deref()) },
+        )?;
         bar.clear();
         interrupt::go_on()?;
         report.volume(&volume);

@@ -62,8 +62,10 @@ fn study(args: &StudyArgs, bar: &Bar) -> Result<Study, Failure> {
 
     bar.step("reading and cutting into tetrahedra");
     let solution = scene.mesh.solution.as_ref().map(|path| resolve_path(&base_dir, path));
-    let volume =
-        Volume::load(&resolve_path(&base_dir, &scene.mesh.path), &ReadOptions::with_solution(solution.as_deref()))?;
+    let volume = Volume::load(
+        &resolve_path(&base_dir, &scene.mesh.path),
+        &ReadOptions { progress: bar.reading(), ..ReadOptions::with_solution(solution.as_deref()) },
+    )?;
     let field = volume.field(scene.mesh.field.as_deref())?;
     bar.clear();
     interrupt::go_on()?;

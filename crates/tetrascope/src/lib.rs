@@ -61,9 +61,9 @@ pub use tetrascope_integrate::{
     deviation,
 };
 pub use tetrascope_io::{
-    IoError, Loaded, PictureFile, PngImage, ReadOptions, StepChoice, check_writable, encode_png, end_writing,
-    make_folder, read_exr, read_heights, read_mesh, read_picture, read_png, readers, write_bytes, write_exr,
-    write_files, write_heights, write_image, write_png, write_vtu,
+    IoError, Loaded, PictureFile, PngImage, ReadOptions, ReadProgress, ReadStage, StepChoice, check_writable,
+    encode_png, end_writing, make_folder, read_exr, read_heights, read_mesh, read_picture, read_png, readers,
+    write_bytes, write_exr, write_files, write_heights, write_image, write_png, write_vtu,
 };
 pub use tetrascope_mesh::{
     ArrayValues, CellKind, Cells, ChordLengths, DataArray, Dataset, Decomposition, MeshError, StructuredBlock, TetMesh,
