@@ -4,9 +4,8 @@
 //! in turn at every step, so that a machine whose speed drifts slows all of them alike; medians are over the turn. Nothing ends
 //! early and nothing is left out: every cell is at least a little opaque in the smooth transfer function.
 //!
-//! The settings are all ways to integrate, with `--interpolations` all ways to find a segment at a pixel, or with `--isosurfaces` all ways to
-//! draw isosurfaces, beside none. With `--orders` visibility orders are measured alone, without a picture; with `--effects` what effects cost
-//! that are switched off; with `--backend gpu` a graphics card, stage by stage; with `--read` the reading of large files.
+//! The settings are all ways to integrate, with `--interpolations` to find a segment at a pixel, or with `--isosurfaces` to draw isosurfaces.
+//! `--orders` measures visibility orders alone, `--effects` what effects cost that are off, `--backend gpu` a graphics card, `--read` reading.
 
 mod effects;
 mod gpu;

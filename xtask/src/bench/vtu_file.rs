@@ -159,10 +159,8 @@ impl Grid {
 /// Writes a file of about so many bytes; gives the number of its tetrahedra.
 pub(super) fn write(path: &Path, encoding: Encoding, bytes: f64, widths: Widths) -> Result<usize, Failure> {
     // What a cube takes is found with a small file of the same kind.
-    let cubes = |per_cube: f64| (bytes / per_cube).cbrt().round().max(2.0) as usize;
-    let probe = Grid { cubes: 24, widths };
-    let per_cube = probe.write(path, encoding)? as f64 / 24_f64.powi(3);
-    let grid = Grid { cubes: cubes(per_cube), widths };
+    let per_cube = Grid { cubes: 24, widths }.write(path, encoding)? as f64 / 24_f64.powi(3);
+    let grid = Grid { cubes: (bytes / per_cube).cbrt().round().max(2.0) as usize, widths };
     grid.write(path, encoding)?;
     Ok(6 * grid.cubes.pow(3))
 }

@@ -84,9 +84,8 @@ impl FoamFile {
     ///
     /// # Errors
     /// Where the system does not give it, it is packed more tightly than [`UNPACKED_PER_BYTE`], or has no header.
-    pub(super) fn open(path: &Path) -> Result<Self, IoError> {
-        let mut source =
-            Source { path: path.to_owned(), bytes: read_whole(path, &ReadOptions::default())?, ..Source::default() };
+    pub(super) fn open(path: &Path, options: &ReadOptions) -> Result<Self, IoError> {
+        let mut source = Source { path: path.to_owned(), bytes: read_whole(path, options)?, ..Source::default() };
         if is_packed(path) {
             source.bytes = unpack(&source)?;
         }

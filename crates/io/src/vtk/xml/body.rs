@@ -113,7 +113,7 @@ impl Body<'_> {
         let mut pieces = self.pieces();
         let (mut batch, mut room) = (Vec::new(), Vec::new());
         let (mut workers, mut before): (Vec<Worker>, usize) = (Vec::new(), 0);
-        let threads = rayon::current_num_threads();
+        let threads = if self.length() < ALONE { 1 } else { rayon::current_num_threads() };
         let most = (BATCH * threads).min(LARGEST_BATCH);
         loop {
             let mut length = 0_usize;

@@ -10,6 +10,7 @@ mod attributes;
 mod body;
 mod collection;
 mod compression;
+mod declared;
 mod elements;
 mod encoded;
 mod faces;

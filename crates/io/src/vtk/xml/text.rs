@@ -22,9 +22,9 @@ pub(super) fn turn<S: Scalar, T: Copy + Send>(
     turn: impl Fn(S) -> Option<T> + Sync,
 ) -> Result<Result<bool, BadWord>, IoError> {
     let before = made.len();
-    let threads = rayon::current_num_threads();
     let mut rooms: Vec<Vec<T>> = Vec::new();
     for text in texts {
+        let threads = if text.len() <= PIECE { 1 } else { rayon::current_num_threads() };
         let mut pieces = Pieces(text);
         loop {
             let batch: Vec<&str> = pieces.by_ref().take(threads).collect();
