@@ -4,13 +4,14 @@
 //! in turn at every step, so that a machine whose speed drifts slows all of them alike; medians are over the turn. Nothing ends
 //! early and nothing is left out: every cell is at least a little opaque in the smooth transfer function.
 //!
-//! The settings are all ways to integrate, with `--interpolations` all ways to find a segment at a pixel, or with `--isosurfaces` all ways to
-//! draw isosurfaces, beside none. With `--orders` visibility orders are measured alone, without a picture; with `--effects` what effects cost
-//! that are switched off; with `--backend gpu` a graphics card, stage by stage.
+//! The settings are all ways to integrate, with `--interpolations` to find a segment at a pixel, or with `--isosurfaces` to draw isosurfaces.
+//! `--orders` measures visibility orders alone, `--effects` what effects cost that are off, `--backend gpu` a graphics card, `--read` reading.
 
 mod effects;
 mod gpu;
 mod orders;
+mod read;
+mod vtu_file;
 
 use std::f64::consts::TAU;
 use std::path::PathBuf;
@@ -73,6 +74,8 @@ pub(crate) struct Args {
     /// Degrees between two frames.
     #[arg(long, default_value_t = 3.0)]
     step: f64,
+    #[command(flatten)]
+    reading: read::Args,
 }
 
 /// Numbers of isosurfaces.
@@ -107,6 +110,9 @@ impl Setting {
 
 /// Runs the benchmark and prints a table.
 pub(crate) fn run(args: &Args) -> Result<(), Failure> {
+    if args.reading.is_asked_for() {
+        return read::run(&args.reading);
+    }
     let threads = args.threads.unwrap_or_else(rayon::current_num_threads);
     let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().map_err(|e| e.to_string())?;
     let volume = match args.mesh.as_slice() {

@@ -138,25 +138,26 @@ struct Asked<'a> {
     base_dir: PathBuf,
     /// The scene's file, for messages.
     scene_path: Option<&'a Path>,
+    bar: &'a Bar,
 }
 
-fn animate(args: &AnimateArgs, bar: &Bar) -> Result<(Record, usize), Failure> {
+fn animate<'a>(args: &'a AnimateArgs, bar: &'a Bar) -> Result<(Record, usize), Failure> {
     let (mut scene, base_dir, shown) = inputs_of(&args.input)?;
     override_by_options(&mut scene, &args.look);
     read_preset(&mut scene, &base_dir)?;
     let scene_path = args.input.first().map(PathBuf::as_path).filter(|path| is_scene(path));
-    let asked = Asked { args, scene, base_dir, scene_path };
+    let asked = Asked { args, scene, base_dir, scene_path, bar };
     let text = record::asked_text(&asked.scene, &asked.base_dir, &shown, args)?;
     let mut kept = Kept::default();
     let record = match record::find(args, &text)? {
         Some(record) => record,
         None => {
-            let record = decide(&asked, shown, text, bar, &mut kept)?;
+            let record = decide(&asked, shown, text, &mut kept)?;
             record.write(&args.output)?;
             record
         }
     };
-    let drawn = draw(&asked, &record, bar, &mut kept)?;
+    let drawn = draw(&asked, &record, &mut kept)?;
     Ok((record, drawn))
 }
 
@@ -174,7 +175,7 @@ impl Kept {
             // One mesh at a time.
             self.volume = None;
             let shown = record.get(step).ok_or_else(|| Failure::Input("the record names no such step".to_owned()))?;
-            let volume = Volume::of_section(&shown.section(&asked.scene.mesh), &asked.base_dir)?;
+            let volume = Volume::of_section(&shown.section(&asked.scene.mesh), &asked.base_dir, asked.bar.reading())?;
             interrupt::go_on()?;
             let findings = volume.decomposition.counts.findings();
             for text in volume.warnings.iter().chain(&findings) {
@@ -196,8 +197,8 @@ fn say_once(said: &mut HashSet<String>, text: &str) {
 }
 
 /// Reads all time steps, to choose for all of them what the scene leaves open.
-fn decide(asked: &Asked<'_>, inputs: Vec<Shown>, text: String, bar: &Bar, kept: &mut Kept) -> Result<Record, Failure> {
-    let args = asked.args;
+fn decide(asked: &Asked<'_>, inputs: Vec<Shown>, text: String, kept: &mut Kept) -> Result<Record, Failure> {
+    let Asked { args, bar, .. } = asked;
     bar.step("reading the time steps");
     let steps = steps_of(asked, inputs, kept)?;
     let frames = frames_of(steps.len(), args.frames.map(|frames| frames as usize), args.turn);
@@ -214,7 +215,7 @@ fn decide(asked: &Asked<'_>, inputs: Vec<Shown>, text: String, bar: &Bar, kept: 
     let total = used.len() as u64;
     for (done, step) in used.into_iter().enumerate() {
         if total > 1 {
-            StudyProgress::report(bar, "looking at all time steps", done as u64, total);
+            StudyProgress::report(*bar, "looking at all time steps", done as u64, total);
         }
         let volume = kept.volume(asked, &steps, step)?;
         let field = volume.field_of_section(&mesh)?;
@@ -259,7 +260,8 @@ fn leaves_nothing_open(scene: &SceneFile) -> bool {
 }
 
 /// Draws the frames that are not there; how many these were.
-fn draw(asked: &Asked<'_>, record: &Record, bar: &Bar, kept: &mut Kept) -> Result<usize, Failure> {
+fn draw(asked: &Asked<'_>, record: &Record, kept: &mut Kept) -> Result<usize, Failure> {
+    let bar = asked.bar;
     let folder = &asked.args.output;
     let is_open = |frame: &&FrameFile| !folder.join(&frame.file).exists();
     let open: Vec<&FrameFile> = record.frames.iter().filter(is_open).collect();

@@ -13,9 +13,10 @@ use tetrascope::{
 use crate::colormaps::ColormapsArgs;
 use crate::convert::ConvertArgs;
 use crate::info::InfoArgs;
+use crate::read_args::ReadArgs;
 use values::{
-    Points, color_points, extinction_points, isosurface, length_axis, opacity, range, raw_volume, shading, size,
-    table_size, target_bits, wanted_error,
+    Points, color_points, extinction_points, isosurface, length_axis, opacity, range, shading, size, table_size,
+    target_bits, wanted_error,
 };
 pub(crate) use values::{fraction, number, vector};
 
@@ -108,15 +109,8 @@ pub(crate) struct MeshArgs {
     /// Draw a cell array as a constant in each cell, instead of averaging it onto the points
     #[arg(long)]
     pub(crate) cells: bool,
-    /// Time step of a file that has several, counted from 0 [default: the last one]
-    #[arg(long, value_name = "N", conflicts_with = "time")]
-    pub(crate) step: Option<usize>,
-    /// The time step nearest to this time
-    #[arg(long, value_name = "T", value_parser = number, allow_hyphen_values = true)]
-    pub(crate) time: Option<f64>,
-    /// Take the file for a raw volume: SIZE:TYPE, as in 64x64x64:uint8 or 64x64x93:int16:big:spacing=3.2,3.2,1.5:skip=512
-    #[arg(long, value_name = "SIZE:TYPE", value_parser = raw_volume)]
-    pub(crate) raw: Option<String>,
+    #[command(flatten)]
+    pub(crate) read: ReadArgs,
 }
 
 /// From where a mesh is seen.

@@ -53,7 +53,7 @@ fn check(args: &CheckArgs, bar: &Bar) -> Result<Value, Failure> {
         (None, None, None, None);
 
     bar.step("reading and cutting into tetrahedra");
-    let volume = Volume::of_section(&scene.mesh, &base_dir)?;
+    let volume = Volume::of_section(&scene.mesh, &base_dir, bar.reading())?;
     let field = volume.field_of_section(&scene.mesh)?;
     interrupt::go_on()?;
     bar.step("looking at the mesh");

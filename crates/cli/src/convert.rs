@@ -130,7 +130,7 @@ fn convert(
 ) -> Result<Converted, Failure> {
     bar.step("reading");
     let start = Instant::now();
-    let Loaded { mut dataset, format, mut warnings, times, step } = args.read.read(input, solution)?;
+    let Loaded { mut dataset, format, mut warnings, times, step } = args.read.read(input, solution, bar)?;
     keep_only(&mut dataset, &args.field).map_err(|error| Failure::Input(format!("{}: {error}", input.display())))?;
     let mut notes = Vec::new();
     if args.tetrahedra {

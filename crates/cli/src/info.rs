@@ -10,12 +10,14 @@ use clap::Args;
 use console::Term;
 use tetrascope::mesh::{FaceAdjacency, MeshReport, check};
 use tetrascope::{
-    ArraySummary, Association, Dataset, Field, FieldError, Loaded, decompose, select_field, summarize_arrays,
+    ArraySummary, Association, Dataset, Field, FieldError, Loaded, decompose, select_cell_field, select_field,
+    summarize_arrays,
 };
 
-use crate::Failure;
+use crate::progress::Bar;
 use crate::read_args::ReadArgs;
 use crate::report::{line, object};
+use crate::{Failure, interrupt};
 use histogram::Histogram;
 
 const EXAMPLES: &str = "\
@@ -76,7 +78,11 @@ pub(crate) fn run(args: &InfoArgs) -> Result<(), Failure> {
     let [path, rest @ ..] = args.input.as_slice() else {
         return Err(Failure::Usage("name a file".to_owned()));
     };
-    let loaded = args.read.read(path, rest.first().map(PathBuf::as_path))?;
+    let bar = Bar::new(false);
+    let loaded = args.read.read(path, rest.first().map(PathBuf::as_path), &bar);
+    bar.clear();
+    let loaded = loaded?;
+    interrupt::go_on()?;
     let width = columns().saturating_sub(MARGIN).max(1);
     let bins = args.bins.map_or(if args.json { BINS } else { width }, usize::from);
     let histogram = match histogram_of(&loaded.dataset, args.field.as_deref(), bins) {
@@ -107,27 +113,11 @@ fn columns() -> usize {
 /// The histogram of the field of a name, or of the one that is shown without one.
 fn histogram_of(dataset: &Dataset, name: Option<&str>, bins: usize) -> Result<Histogram, FieldError> {
     let field = select_field(dataset, name)?;
-    let of_cells = || of_cells(dataset, &field.name);
-    let values = match field.association {
-        Association::Point => None,
-        // The field has their means at points; what the file has is told here.
-        Association::Cell => of_cells(),
+    // The field of a cell array has its means at points; what the file has is told here.
+    let field = match field.association {
+        Association::Point => field,
+        Association::Cell => select_cell_field(dataset, Some(&field.name))?,
     };
-    let (association, values) = match values {
-        Some(values) => (Association::Cell, values),
-        None => (Association::Point, field.values),
-    };
-    let Field { name, .. } = field;
+    let Field { name, association, values, .. } = field;
     Ok(Histogram::new(name, association, &values, bins))
-}
-
-/// The numbers of a cell array under the full name of a field: `"c"`, `"c:1"`, `"c:mag"`.
-fn of_cells(dataset: &Dataset, name: &str) -> Option<Vec<f64>> {
-    let array = |name: &str| dataset.cell_arrays.iter().find(|array| array.name == name);
-    if let Some(array) = array(name).filter(|array| array.components == 1) {
-        return Some(array.component(0));
-    }
-    let (name, part) = name.rsplit_once(':')?;
-    let array = array(name)?;
-    if part == "mag" { Some(array.magnitude()) } else { Some(array.component(part.parse().ok()?)) }
 }

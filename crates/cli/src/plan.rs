@@ -35,7 +35,7 @@ fn plan(args: &PlanArgs, bar: &Bar) -> Result<Said, Failure> {
     let (scene, base_dir) = scene_of(&args.scene)?;
     let threads = args.scene.look.threads.map(usize::from);
     bar.step("reading and cutting into tetrahedra");
-    let volume = Volume::of_section(&scene.mesh, &base_dir)?;
+    let volume = Volume::of_section(&scene.mesh, &base_dir, bar.reading())?;
     interrupt::go_on()?;
     let field = volume.field_of_section(&scene.mesh)?;
     bar.step("choosing methods");

@@ -1,11 +1,11 @@
 //! The progress bar: on standard error, only on a terminal, only for work that takes a while.
 
 use std::io::IsTerminal;
-use std::sync::{Mutex, PoisonError};
+use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Duration;
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
-use tetrascope::{Progress, Stage};
+use tetrascope::{Progress, ReadProgress, ReadStage, Stage};
 use tetrascope_study::StudyProgress;
 
 use crate::interrupt;
@@ -33,15 +33,63 @@ impl Bar {
 
     /// A step of which only the beginning and the end are known.
     pub(crate) fn step(&self, name: &'static str) {
-        self.bar.set_style(ProgressStyle::default_spinner());
-        self.bar.set_message(name);
-        self.bar.enable_steady_tick(Duration::from_millis(100));
+        spin(&self.bar, name);
+    }
+
+    /// Shows what is read of files, for [`ReadOptions::progress`](tetrascope::ReadOptions); in between what [`step`](Self::step) showed.
+    pub(crate) fn reading(&self) -> Option<Arc<dyn ReadProgress>> {
+        Some(Arc::new(Reading { bar: self.bar.clone(), shown: Mutex::new(None) }))
     }
 
     /// Takes the bar away.
     pub(crate) fn clear(&self) {
         self.bar.disable_steady_tick();
         self.bar.finish_and_clear();
+    }
+}
+
+fn spin(bar: &ProgressBar, name: impl Into<std::borrow::Cow<'static, str>>) {
+    bar.set_style(ProgressStyle::default_spinner());
+    bar.set_message(name);
+    bar.enable_steady_tick(Duration::from_millis(100));
+}
+
+/// The same bar while files are read.
+#[derive(Debug)]
+struct Reading {
+    bar: ProgressBar,
+    /// The stage and the file's length that are shown, and what was there before.
+    shown: Mutex<Option<(ReadStage, u64, String)>>,
+}
+
+impl ReadProgress for Reading {
+    fn report(&self, stage: ReadStage, done: u64, total: u64) {
+        if self.bar.is_hidden() {
+            return;
+        }
+        let mut shown = self.shown.lock().unwrap_or_else(PoisonError::into_inner);
+        if done >= total {
+            // What comes now is not counted.
+            if let Some((_, _, before)) = shown.take() {
+                spin(&self.bar, before);
+            }
+            return;
+        }
+        if !shown.as_ref().is_some_and(|shown| (shown.0, shown.1) == (stage, total)) {
+            let before = shown.take().map_or_else(|| self.bar.message(), |(_, _, before)| before);
+            *shown = Some((stage, total, before));
+            self.bar.disable_steady_tick();
+            if let Ok(style) = ProgressStyle::with_template("{msg:10} [{bar:40}] {bytes} of {total_bytes} {eta}") {
+                self.bar.set_style(style.progress_chars("=> "));
+            }
+            self.bar.set_message(stage.to_string());
+            self.bar.set_length(total);
+        }
+        self.bar.set_position(done);
+    }
+
+    fn is_stopped(&self) -> bool {
+        interrupt::is_stopped()
     }
 }
 

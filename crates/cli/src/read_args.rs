@@ -6,6 +6,8 @@ use clap::Args;
 use tetrascope::{Loaded, RawVolume, ReadOptions, StepChoice, Volume, is_builtin, read_mesh};
 
 use crate::Failure;
+use crate::args::number;
+use crate::progress::Bar;
 
 /// Which step of a file is read, and what a raw volume is.
 #[derive(Debug, Default, Args)]
@@ -14,7 +16,7 @@ pub(crate) struct ReadArgs {
     #[arg(long, value_name = "N", conflicts_with = "time", help_heading = "Input")]
     pub(crate) step: Option<usize>,
     /// Time whose nearest step is read
-    #[arg(long, value_name = "TIME", allow_hyphen_values = true, help_heading = "Input")]
+    #[arg(long, value_name = "TIME", value_parser = number, allow_hyphen_values = true, help_heading = "Input")]
     pub(crate) time: Option<f64>,
     /// The file is samples and nothing else: their number along x, y and z and their type, as in 64x64x64:uint8 or
     /// 64x64x93:int16:big:spacing=3.2,3.2,1.5:origin=0,0,0:components=1:skip=512
@@ -24,7 +26,7 @@ pub(crate) struct ReadArgs {
 
 impl ReadArgs {
     /// Reads a mesh file, or makes a built-in mesh.
-    pub(crate) fn read(&self, path: &Path, solution: Option<&Path>) -> Result<Loaded, Failure> {
+    pub(crate) fn read(&self, path: &Path, solution: Option<&Path>, bar: &Bar) -> Result<Loaded, Failure> {
         if is_builtin(path) {
             let volume = Volume::load(path, &ReadOptions::default())?;
             return Ok(Loaded::without_time(volume.dataset, volume.format, volume.warnings));
@@ -34,7 +36,8 @@ impl ReadArgs {
             (None, Some(time)) => StepChoice::Time(time),
             (None, None) => StepChoice::Last,
         };
-        let options = ReadOptions { solution: solution.map(Path::to_owned), step, raw: self.raw };
+        let progress = bar.reading();
+        let options = ReadOptions { solution: solution.map(Path::to_owned), step, raw: self.raw, progress };
         Ok(read_mesh(path, &options).map_err(tetrascope::Error::Io)?)
     }
 }

@@ -83,7 +83,7 @@ impl Job<'_> {
 
     fn make(&self, bar: &Bar, report: &mut Report) -> Result<(), Failure> {
         bar.step("reading and cutting into tetrahedra");
-        let volume = Volume::of_section(&self.scene.mesh, &self.base_dir)?;
+        let volume = Volume::of_section(&self.scene.mesh, &self.base_dir, bar.reading())?;
         bar.clear();
         interrupt::go_on()?;
         report.volume(&volume);

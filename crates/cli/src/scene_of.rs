@@ -69,10 +69,11 @@ fn set_some<T: Clone>(slot: &mut Option<T>, value: Option<&T>) {
 fn override_mesh(section: &mut MeshSection, args: &MeshArgs) {
     set_some(&mut section.field, args.field.as_ref());
     section.cells |= args.cells;
-    if args.step.is_some() || args.time.is_some() {
-        (section.step, section.time) = (args.step, args.time);
+    let read = &args.read;
+    if read.step.is_some() || read.time.is_some() {
+        (section.step, section.time) = (read.step, read.time);
     }
-    set_some(&mut section.raw, args.raw.as_ref());
+    set_some(&mut section.raw, read.raw.map(|raw| raw.to_string()).as_ref());
 }
 
 /// What an option says counts alone: what the scene file has for the same gives way.

@@ -59,7 +59,7 @@ fn study(args: &StudyArgs, bar: &Bar) -> Result<Study, Failure> {
     let (scene, base_dir) = scene_as_seen(&args.input, &args.mesh, &args.camera, args.size)?;
 
     bar.step("reading and cutting into tetrahedra");
-    let volume = Volume::of_section(&scene.mesh, &base_dir)?;
+    let volume = Volume::of_section(&scene.mesh, &base_dir, bar.reading())?;
     let field = volume.field_of_section(&scene.mesh)?;
     bar.clear();
     interrupt::go_on()?;

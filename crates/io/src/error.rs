@@ -36,6 +36,12 @@ pub enum IoError {
         /// What the user can do.
         remedy: String,
     },
+    /// Reading was given up, as [`ReadProgress::is_stopped`](crate::ReadProgress::is_stopped) said.
+    #[error("{}: reading it was interrupted; start again to read it", path.display())]
+    Interrupted {
+        /// The file.
+        path: PathBuf,
+    },
     /// A file was not written; nothing is left in its place.
     #[error("{}: cannot be written: {problem}; {remedy}", path.display())]
     Write {

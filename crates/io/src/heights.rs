@@ -5,9 +5,9 @@
 
 use std::path::Path;
 
-use crate::IoError;
-use crate::open::read_whole;
+use crate::opened::read_whole;
 use crate::picture::write_whole;
+use crate::{IoError, ReadOptions};
 
 const MAGIC: &[u8; 19] = b"TETRASCOPE-HEIGHTS\n";
 const VERSION: u8 = 1;
@@ -21,7 +21,7 @@ const HEADER: usize = MAGIC.len() + 1 + size_of::<u32>();
 /// [`IoError::Read`] when the system does not give the file, [`IoError::Unsupported`] when it is no such file or of a later
 /// version, [`IoError::Invalid`] when its length is not what its header says or a height is not finite.
 pub fn read_heights(path: &Path) -> Result<Vec<f64>, IoError> {
-    let bytes = read_whole(path)?;
+    let bytes = read_whole(path, &ReadOptions::default())?;
     let remedy = || "have the heights computed again, or do not name the file".to_owned();
     let unsupported = |what: String| IoError::Unsupported { path: path.to_owned(), what, remedy: remedy() };
     let invalid =

@@ -24,7 +24,8 @@
 //! ```
 //!
 //! This crate and the command line are the only ones that open files; neither prints here. Files are read whole into
-//! memory; of an OpenFOAM case, which is a folder, only those of the chosen time step.
+//! memory, except for VTK's XML files with appended raw data, whose arrays are read piece by piece; of an OpenFOAM case, which is a folder,
+//! only the files of the chosen time step.
 
 mod budget;
 mod bytes;
@@ -36,9 +37,11 @@ mod grid;
 mod heights;
 mod nrrd;
 mod open;
+mod opened;
 mod openfoam;
 mod picture;
 mod plot3d;
+mod progress;
 mod raw;
 mod read;
 mod sample;
@@ -50,10 +53,12 @@ pub use bytes::ByteOrder;
 pub use error::IoError;
 pub use heights::{read_heights, write_heights};
 pub use open::{file_length, read_mesh, read_small_file, readers};
+pub use opened::OpenFile;
 pub use picture::{
     PictureFile, PngImage, check_writable, encode_png, end_writing, make_folder, read_exr, read_picture, read_png,
     write_bytes, write_exr, write_files, write_image, write_png,
 };
+pub use progress::{ReadProgress, ReadStage};
 pub use raw::RawVolume;
 pub use read::{Loaded, MeshReader, ReadOptions, Source, StepChoice};
 pub use sample::SampleType;

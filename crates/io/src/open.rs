@@ -2,6 +2,7 @@
 
 use std::path::Path;
 
+use crate::opened::{FIRST, read_beginning};
 use crate::read::printable;
 use crate::{
     IoError, Loaded, MeshReader, RawVolume, ReadOptions, Source, exodus::EXODUS, foreign, gmsh::GMSH, nrrd::NRRD,
@@ -44,25 +45,31 @@ pub fn readers() -> &'static [&'static dyn MeshReader] {
 ///
 /// # Errors
 /// [`IoError::Read`] when the system does not give the file, [`IoError::Unsupported`] when no reader takes it (the message
-/// lists those there are), [`IoError::Invalid`] when it is broken.
+/// lists those there are), [`IoError::Invalid`] when it is broken, [`IoError::Interrupted`] when the progress of the options says so.
 pub fn read_mesh(path: &Path, options: &ReadOptions) -> Result<Loaded, IoError> {
     open(path, options, true)
 }
 
 /// Reads a mesh that another file names, of any format but those that name meshes themselves: such files could name each other without end.
-pub(crate) fn read_part(path: &Path) -> Result<Loaded, IoError> {
-    open(path, &ReadOptions::default(), false)
+///
+/// - `options`: of the file that names it, of which only the progress counts
+pub(crate) fn read_part(path: &Path, options: &ReadOptions) -> Result<Loaded, IoError> {
+    open(path, &ReadOptions { progress: options.progress.clone(), ..ReadOptions::default() }, false)
 }
 
 fn open(path: &Path, options: &ReadOptions, may_name_meshes: bool) -> Result<Loaded, IoError> {
     let source = |bytes: Vec<u8>| Source { path: path.to_owned(), bytes, options: options.clone() };
     let by_path = readers().iter().copied().find(|reader| reader.takes(path));
     if let Some(reader) = by_path {
-        return finished(&source(Vec::new()), reader);
+        let source = source(Vec::new());
+        return finished(&source, reader, reader.read(&source)?);
     }
-    let source = source(read_whole(path)?);
-    if options.raw.is_some() || RawVolume::of_name(path, source.bytes.len() as u64).is_some() {
-        return finished(&source, &RAW);
+    let is_raw = options.raw.is_some() || RawVolume::of_name(path, file_length(path)).is_some();
+    let mut appended = vtk::AppendedSearch::default();
+    let (bytes, file) = read_beginning(path, options, FIRST, |bytes| !is_raw && appended.is_found(bytes))?;
+    let mut source = source(bytes);
+    if is_raw {
+        return finished(&source, &RAW, RAW.read(&source)?);
     }
     let extension = source.extension();
     let expected = reader_of_extension(&extension);
@@ -81,7 +88,15 @@ fn open(path: &Path, options: &ReadOptions, may_name_meshes: bool) -> Result<Loa
         ));
     }
 
-    let mut loaded = finished(&source, reader)?;
+    let in_pieces = if source.bytes.len() < file.length() { reader.read_open(&source, &file)? } else { None };
+    let loaded = match in_pieces {
+        Some(loaded) => loaded,
+        None => {
+            file.read_rest(&mut source.bytes)?;
+            reader.read(&source)?
+        }
+    };
+    let mut loaded = finished(&source, reader, loaded)?;
     let named_otherwise =
         expected.is_some_and(|other| other.name() != reader.name()) || foreign::is_foreign_extension(&extension);
     // Extensions that two readers share say nothing against either.
@@ -95,8 +110,7 @@ fn open(path: &Path, options: &ReadOptions, may_name_meshes: bool) -> Result<Loa
 }
 
 /// What a reader gives, with what is the same for all.
-fn finished(source: &Source, reader: &dyn MeshReader) -> Result<Loaded, IoError> {
-    let mut loaded = reader.read(source)?;
+fn finished(source: &Source, reader: &dyn MeshReader, mut loaded: Loaded) -> Result<Loaded, IoError> {
     loaded.warnings = loaded.warnings.into_iter().map(printable).collect();
     loaded.format = printable(loaded.format);
     if source.options.solution.is_some() && reader.name() != PLOT3D.name() {
@@ -133,31 +147,7 @@ pub fn read_small_file(path: &Path, most: u64) -> Result<Vec<u8>, IoError> {
             remedy: "check the path; it seems to be another file".to_owned(),
         });
     }
-    read_whole(path)
-}
-
-/// All bytes of a regular file that is not empty.
-pub(crate) fn read_whole(path: &Path) -> Result<Vec<u8>, IoError> {
-    let failed = |source| IoError::Read { path: path.to_owned(), source };
-    let metadata = std::fs::metadata(path).map_err(failed)?;
-    // A device or a pipe may never end.
-    if !metadata.is_file() {
-        return Err(IoError::Unsupported {
-            path: path.to_owned(),
-            what: if metadata.is_dir() { "reading a folder" } else { "reading a device or pipe" }.to_owned(),
-            remedy: "name a regular file, or the folder of an OpenFOAM case".to_owned(),
-        });
-    }
-    let bytes = std::fs::read(path).map_err(failed)?;
-    if bytes.is_empty() {
-        return Err(IoError::Invalid {
-            path: path.to_owned(),
-            place: "the whole file".to_owned(),
-            problem: "it is empty (0 bytes)".to_owned(),
-            remedy: "write it again; the program that made it may have failed".to_owned(),
-        });
-    }
-    Ok(bytes)
+    crate::opened::read_whole(path, &ReadOptions::default())
 }
 
 fn reader_of_extension(extension: &str) -> Option<&'static dyn MeshReader> {

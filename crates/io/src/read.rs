@@ -1,10 +1,11 @@
 //! The one trait behind which all readers stand.
 
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 use tetrascope_mesh::Dataset;
 
-use crate::{IoError, RawVolume};
+use crate::{IoError, OpenFile, RawVolume, ReadProgress};
 
 /// What a user says of a mesh file besides its name.
 #[derive(Clone, Debug, Default)]
@@ -15,6 +16,8 @@ pub struct ReadOptions {
     pub step: StepChoice,
     /// That it is a raw volume, and of what.
     pub raw: Option<RawVolume>,
+    /// Who is told how far it is, and may stop it.
+    pub progress: Option<Arc<dyn ReadProgress>>,
 }
 
 /// One time step of those that a file has.
@@ -88,6 +91,15 @@ pub trait MeshReader: Sync {
     /// # Errors
     /// [`IoError`] with the file, the place and a remedy. Never panics, and reserves no memory from declared counts.
     fn read(&self, source: &Source) -> Result<Loaded, IoError>;
+
+    /// Reads it without having all of it in memory: `beginning` has the first bytes of `file`. Nothing where that cannot be done, and
+    /// the file is to be [read](Self::read) whole.
+    ///
+    /// # Errors
+    /// As of [`read`](Self::read).
+    fn read_open(&self, _beginning: &Source, _file: &OpenFile) -> Result<Option<Loaded>, IoError> {
+        Ok(None)
+    }
 }
 
 impl ReadOptions {

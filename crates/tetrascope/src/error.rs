@@ -83,9 +83,11 @@ pub enum Error {
 }
 
 impl Error {
-    /// Whether nothing failed but that the work was to be given up, as [`Progress::is_stopped`](tetrascope_scene::Progress::is_stopped) said.
+    /// Whether nothing failed but that the work was to be given up, as [`Progress::is_stopped`](tetrascope_scene::Progress::is_stopped) or
+    /// [`ReadProgress::is_stopped`](tetrascope_io::ReadProgress::is_stopped) said.
     pub fn is_interrupted(&self) -> bool {
         let plan = match self {
+            Self::Io(IoError::Interrupted { .. }) => return true,
             Self::Render(RenderError::Plan(plan))
             | Self::Gpu(GpuError::Plan(plan))
             | Self::Estimate(EstimateError::Render(RenderError::Plan(plan))) => plan,

@@ -68,10 +68,10 @@ pub use tetrascope_integrate::{
     deviation,
 };
 pub use tetrascope_io::{
-    ByteOrder, IoError, Loaded, PictureFile, PngImage, RawVolume, ReadOptions, SampleType, StepChoice, VtuEncoding,
-    VtuOptions, WrittenVtu, check_writable, encode_png, end_writing, make_folder, read_exr, read_heights, read_mesh,
-    read_picture, read_png, readers, write_bytes, write_exr, write_files, write_heights, write_image, write_png,
-    write_vtu, write_vtu_with,
+    ByteOrder, IoError, Loaded, PictureFile, PngImage, RawVolume, ReadOptions, ReadProgress, ReadStage, SampleType,
+    StepChoice, VtuEncoding, VtuOptions, WrittenVtu, check_writable, encode_png, end_writing, make_folder, read_exr,
+    read_heights, read_mesh, read_picture, read_png, readers, write_bytes, write_exr, write_files, write_heights,
+    write_image, write_png, write_vtu, write_vtu_with,
 };
 pub use tetrascope_mesh::{
     ArrayValues, CellKind, Cells, ChordLengths, DataArray, Dataset, Decomposition, MeshError, StructuredBlock, TetMesh,

@@ -49,7 +49,7 @@ impl Picture {
 pub fn render_scene(scene: &SceneFile, base_dir: &Path, progress: &dyn Progress) -> Result<Picture, Error> {
     let mut scene = scene.clone();
     read_preset(&mut scene, base_dir)?;
-    let volume = Volume::of_section(&scene.mesh, base_dir)?;
+    let volume = Volume::of_section(&scene.mesh, base_dir, None)?;
     render_volume(&volume, &scene, progress)
 }
 

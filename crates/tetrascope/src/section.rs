@@ -1,9 +1,10 @@
 //! What a scene names and other files hold: its mesh, its field, its color map.
 
 use std::path::Path;
+use std::sync::Arc;
 
 use tetrascope_colors::read_presets;
-use tetrascope_io::{RawVolume, ReadOptions, StepChoice, read_small_file};
+use tetrascope_io::{RawVolume, ReadOptions, ReadProgress, StepChoice, read_small_file};
 use tetrascope_scene::{MeshSection, PresetMap, SceneError, SceneFile};
 
 use crate::{Error, Volume, VolumeField, resolve_path};
@@ -15,11 +16,17 @@ impl Volume {
     /// Reads the mesh that a scene names, at the time that it names.
     ///
     /// - `base_dir`: what the scene's paths are relative to
+    /// - `progress`: who is told of reading
     ///
     /// # Errors
     /// Those of [`Volume::load`], and [`Error::Scene`] for keys that contradict each other or say nothing.
-    pub fn of_section(section: &MeshSection, base_dir: &Path) -> Result<Self, Error> {
-        Self::load(&resolve_path(base_dir, &section.path), &read_options(section, base_dir)?)
+    pub fn of_section(
+        section: &MeshSection,
+        base_dir: &Path,
+        progress: Option<Arc<dyn ReadProgress>>,
+    ) -> Result<Self, Error> {
+        let options = ReadOptions { progress, ..read_options(section, base_dir)? };
+        Self::load(&resolve_path(base_dir, &section.path), &options)
     }
 
     /// The field that a scene names, averaged onto points or constant in each cell.
@@ -57,7 +64,7 @@ pub fn read_options(section: &MeshSection, base_dir: &Path) -> Result<ReadOption
         expected,
     })?;
     let solution = section.solution.as_ref().map(|path| resolve_path(base_dir, path));
-    Ok(ReadOptions { solution, step, raw })
+    Ok(ReadOptions { solution, step, raw, progress: None })
 }
 
 /// Reads the color map that a scene names by a file into the scene; nothing is done for a scene that names none.

@@ -26,7 +26,7 @@ impl Drawing {
             println!("SKIPPED {name}: there is no {}", path.display());
             return Ok(None);
         }
-        let volume = Volume::of_section(&scene.mesh, &folder())?;
+        let volume = Volume::of_section(&scene.mesh, &folder(), None)?;
         Ok(Some(Self { scene, volume }))
     }
 

@@ -1,6 +1,6 @@
 //! What a word of the command line means: numbers, points, names.
 
-use tetrascope::{IsosurfaceSection, LengthAxisName, OpacityName, RawVolume, Shading, TableSettings, TargetBits};
+use tetrascope::{IsosurfaceSection, LengthAxisName, OpacityName, Shading, TableSettings, TargetBits};
 
 /// A number that is not negative, or a fraction of two: `0.004`, `1e-3`, `1/255`.
 pub(crate) fn fraction(text: &str) -> Result<f64, String> {
@@ -131,11 +131,6 @@ pub(crate) fn number(text: &str) -> Result<f64, String> {
 pub(super) fn range(text: &str) -> Result<[f64; 2], String> {
     let [low, high] = numbers(text)?;
     if low < high { Ok([low, high]) } else { Err(format!("{low} is not below {high}; give LOW,HIGH")) }
-}
-
-/// By its word: that it means something is checked here, where it can be said at once.
-pub(super) fn raw_volume(text: &str) -> Result<String, String> {
-    text.parse::<RawVolume>().map(|_| text.to_owned())
 }
 
 /// Points have a colon each, values over the whole range commas between them, and names neither.

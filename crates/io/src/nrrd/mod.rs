@@ -25,7 +25,7 @@ use self::{
     geometry::Directions,
     header::Header,
 };
-use crate::{IoError, Loaded, MeshReader, Source, grid::check_dims, open::read_whole, raw::ARRAY_NAME};
+use crate::{IoError, Loaded, MeshReader, Source, grid::check_dims, opened::read_whole, raw::ARRAY_NAME};
 
 /// The reader of NRRD.
 pub(crate) static NRRD: Nrrd = Nrrd;
@@ -124,8 +124,11 @@ fn read_range<'a>(
             continue;
         }
         let place = format!("the data file `{}`", file.name);
-        let cannot = |error: IoError| source.invalid(place.as_str(), error.to_string(), "check that it is complete");
-        let bytes = read_whole(&file.path).map_err(cannot)?;
+        let cannot = |error: IoError| match error {
+            stopped @ IoError::Interrupted { .. } => stopped,
+            error => source.invalid(place.as_str(), error.to_string(), "check that it is complete"),
+        };
+        let bytes = read_whole(&file.path, &source.options).map_err(cannot)?;
         let (part, more) = layout.samples(source, &place, &bytes, a_part, here.start - first..here.end - first)?;
         any_more |= more;
         samples.extend_from_slice(&part);

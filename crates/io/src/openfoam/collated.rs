@@ -9,15 +9,17 @@ use super::{
     file::{FoamFile, Header, existing},
     words::{Bad, Words},
 };
-use crate::{IoError, Source};
+use crate::{IoError, ReadOptions, Source};
 
 /// The class of such files.
 const COLLATED: &str = "decomposedBlockData";
 
 /// Files that were read once and are handed out block by block, so that none is read once for every processor.
-#[derive(Debug, Default)]
+#[derive(Debug)]
 pub(super) struct Blocks {
     files: HashMap<PathBuf, Collated>,
+    /// Who is told how far it is, with nothing else.
+    options: ReadOptions,
 }
 
 #[derive(Debug)]
@@ -31,10 +33,16 @@ struct Collated {
 }
 
 impl Blocks {
+    /// None yet; all files are read with the progress of these options.
+    pub(super) fn new(options: &ReadOptions) -> Self {
+        let options = ReadOptions { progress: options.progress.clone(), ..ReadOptions::default() };
+        Self { files: HashMap::new(), options }
+    }
+
     /// Opens a file by its path without `.gz`, or what one processor has written into it.
     pub(super) fn open(&mut self, path: &Path, block: Option<usize>) -> Result<FoamFile, IoError> {
         let path = existing(path).unwrap_or_else(|| path.to_owned());
-        let Some(block) = block else { return FoamFile::open(&path) };
+        let Some(block) = block else { return FoamFile::open(&path, &self.options) };
         let file = self.load(&path)?;
         let count = file.count;
         file.blocks.get_mut(block).and_then(Option::take).ok_or_else(|| {
@@ -64,7 +72,7 @@ impl Blocks {
 
     fn load(&mut self, path: &Path) -> Result<&mut Collated, IoError> {
         if !self.files.contains_key(path) {
-            let read = Collated::read(path)?;
+            let read = Collated::read(path, &self.options)?;
             self.files.insert(path.to_owned(), read);
         }
         self.files
@@ -74,8 +82,8 @@ impl Blocks {
 }
 
 impl Collated {
-    fn read(path: &Path) -> Result<Self, IoError> {
-        let file = FoamFile::open(path)?;
+    fn read(path: &Path, options: &ReadOptions) -> Result<Self, IoError> {
+        let file = FoamFile::open(path, options)?;
         file.expect_class(&[COLLATED])?;
         let contents = split(file.words()).map_err(|bad| file.invalid(bad))?;
         // The first block alone has a header of its own, which holds for all.

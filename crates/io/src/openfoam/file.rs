@@ -9,7 +9,7 @@ use std::{
 use flate2::read::MultiGzDecoder;
 
 use super::words::{Bad, Token, Words};
-use crate::{IoError, Source, bytes::ByteOrder, open::read_whole};
+use crate::{IoError, ReadOptions, Source, bytes::ByteOrder, opened::read_whole};
 
 /// What to advise when a file is damaged.
 pub(super) const DAMAGED: &str = "the file is cut off or damaged; write it again, or take another time step";
@@ -84,8 +84,8 @@ impl FoamFile {
     ///
     /// # Errors
     /// Where the system does not give it, it is packed more tightly than [`UNPACKED_PER_BYTE`], or has no header.
-    pub(super) fn open(path: &Path) -> Result<Self, IoError> {
-        let mut source = Source { path: path.to_owned(), bytes: read_whole(path)?, ..Source::default() };
+    pub(super) fn open(path: &Path, options: &ReadOptions) -> Result<Self, IoError> {
+        let mut source = Source { path: path.to_owned(), bytes: read_whole(path, options)?, ..Source::default() };
         if is_packed(path) {
             source.bytes = unpack(&source)?;
         }

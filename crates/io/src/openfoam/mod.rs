@@ -73,7 +73,7 @@ impl MeshReader for OpenFoam {
             )
         })?;
         let mut warnings = Vec::new();
-        let mut blocks = Blocks::default();
+        let mut blocks = Blocks::new(&source.options);
         let chosen = choose(source, &located, &mut blocks, &mut warnings)?;
         let times: Vec<f64> = chosen.times.iter().map(|folder| folder.time).collect();
         let step = match (&located.time, source.options.step) {

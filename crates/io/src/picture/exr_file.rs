@@ -12,7 +12,7 @@ use super::{
     refuse_empty,
     whole_file::{ask_for_memory, write_whole},
 };
-use crate::{IoError, open::read_whole};
+use crate::{IoError, ReadOptions, opened::read_whole};
 
 /// How many bytes of samples, of all channels, a byte of a compressed file may stand for. Deflate reaches 1032; three times that leaves room
 /// for half floats, which count as whole ones here, and for the other methods on constant pictures.
@@ -69,7 +69,7 @@ fn encode(image: &LinearImage) -> exr::error::Result<Vec<u8>> {
 /// [`IoError::Read`] when the system does not give the file, [`IoError::Invalid`] when it is no such picture, is broken,
 /// or declares more pixels than a file of its length can hold.
 pub fn read_exr(path: &Path) -> Result<LinearImage, IoError> {
-    decode(path, &read_whole(path)?)
+    decode(path, &read_whole(path, &ReadOptions::default())?)
 }
 
 /// [`read_exr`] of what is in the file.

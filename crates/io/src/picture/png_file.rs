@@ -8,7 +8,7 @@ use super::{
     refuse_empty,
     whole_file::{ask_for_memory, write_whole},
 };
-use crate::{IoError, open::read_whole};
+use crate::{IoError, ReadOptions, opened::read_whole};
 
 /// How many bytes of samples a byte of a file may stand for: what deflate reaches. A pixel counts as a byte at least; what more a picture of
 /// single bits could hold is no picture.
@@ -85,7 +85,7 @@ fn encode(image: &LinearImage, background: [f32; 3]) -> Result<Vec<u8>, png::Enc
 /// [`IoError::Read`] when the system does not give the file, [`IoError::Invalid`] when it is no such picture, is broken, declares more
 /// pixels than a file of its length can hold (1032 bytes of samples a byte, and 2²² pixels whatever the length is), or more than 2²⁸.
 pub fn read_png(path: &Path) -> Result<PngImage, IoError> {
-    decode(path, &read_whole(path)?)
+    decode(path, &read_whole(path, &ReadOptions::default())?)
 }
 
 /// [`read_png`] of what is in the file.

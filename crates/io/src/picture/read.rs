@@ -5,7 +5,7 @@ use std::path::Path;
 use tetrascope_view::LinearImage;
 
 use super::{PngImage, exr_file, png_file};
-use crate::{IoError, open::read_whole};
+use crate::{IoError, ReadOptions, opened::read_whole};
 
 /// The first bytes of each format.
 const PNG: [u8; 8] = *b"\x89PNG\r\n\x1a\n";
@@ -25,7 +25,7 @@ pub enum PictureFile {
 /// # Errors
 /// [`IoError::Unsupported`] for a file that begins like neither, else as [`read_png`](super::read_png) and [`read_exr`](super::read_exr).
 pub fn read_picture(path: &Path) -> Result<PictureFile, IoError> {
-    let bytes = read_whole(path)?;
+    let bytes = read_whole(path, &ReadOptions::default())?;
     if bytes.starts_with(&PNG) {
         png_file::decode(path, &bytes).map(PictureFile::Png)
     } else if bytes.starts_with(&EXR) {

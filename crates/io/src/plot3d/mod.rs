@@ -26,10 +26,7 @@ use self::{
     records::RecordError,
     text::BadToken,
 };
-use crate::{
-    IoError, Loaded, MeshReader, Source,
-    open::{file_name, read_whole},
-};
+use crate::{IoError, Loaded, MeshReader, Source, open::file_name, opened::read_whole};
 
 /// The reader of PLOT3D.
 pub(crate) static PLOT3D: Plot3d = Plot3d;
@@ -73,7 +70,11 @@ impl MeshReader for Plot3d {
             return Ok(Loaded::without_time(dataset, format!("PLOT3D, {format}"), warnings));
         };
 
-        let second = Source { path: second_path.clone(), bytes: read_whole(second_path)?, ..Default::default() };
+        let second = Source {
+            path: second_path.clone(),
+            bytes: read_whole(second_path, &source.options)?,
+            ..Default::default()
+        };
         let allowed = grid.as_ref().map_or(0, |fit| fit.points().sum::<usize>().saturating_mul(SOLUTION_NUMBERS));
         let second_content = open(&second, allowed)?;
         let second_as_grid = if main_is_solution { detect(&second_content, Kind::Grid).ok() } else { None };

@@ -38,6 +38,10 @@ fn words_of_the_command_line() {
         skip: 16,
     };
     assert_eq!(all, expected);
+    for word in ["64x32x16:uint8", "4x3x2:float32:big:components=3:spacing=1.0,-2.0,0.5:origin=1000.0,0.0,-1.0:skip=16"]
+    {
+        assert_eq!(word.parse::<RawVolume>().unwrap().to_string(), word);
+    }
     assert_eq!("103x94x161:u16:le".parse::<RawVolume>().unwrap().order, ByteOrder::Little);
     for (word, named) in [
         ("", "size"),

@@ -1,5 +1,6 @@
 //! A raw volume in one word of a command line.
 
+use std::fmt;
 use std::str::FromStr;
 
 use super::RawVolume;
@@ -22,6 +23,26 @@ impl FromStr for RawVolume {
     /// A sentence that names the part and what it may be.
     fn from_str(word: &str) -> Result<Self, String> {
         Self::of_word(word).map_err(printable)
+    }
+}
+
+impl fmt::Display for RawVolume {
+    /// The word that [`FromStr`] takes: size and type, and what differs from [`RawVolume::new`].
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let [x, y, z] = self.size;
+        write!(f, "{x}x{y}x{z}:{}", self.sample)?;
+        if self.order == ByteOrder::Big {
+            f.write_str(":big")?;
+        }
+        if self.components != 1 {
+            write!(f, ":components={}", self.components)?;
+        }
+        for (name, [x, y, z], usual) in [("spacing", self.spacing, 1.0), ("origin", self.origin, 0.0)] {
+            if [x, y, z] != [usual; 3] {
+                write!(f, ":{name}={x:?},{y:?},{z:?}")?;
+            }
+        }
+        if self.skip != 0 { write!(f, ":skip={}", self.skip) } else { Ok(()) }
     }
 }
 

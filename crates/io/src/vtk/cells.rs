@@ -71,6 +71,29 @@ impl<'a> CellBuilder<'a> {
         Ok(())
     }
 
+    /// The points before those of the current piece.
+    pub(crate) fn point_base(&self) -> u32 {
+        self.point_base
+    }
+
+    /// The points of the current piece.
+    pub(crate) fn point_count(&self) -> u32 {
+        self.point_count
+    }
+
+    /// Adds cells that need no check; their points count from the first one of all.
+    pub(crate) fn push_all(&mut self, cells: UnstructuredCells) {
+        if self.cells.kinds.is_empty() && self.cells.connectivity.is_empty() {
+            self.cells = cells;
+            return;
+        }
+        let base = self.cells.connectivity.len();
+        self.cells.connectivity.extend(cells.connectivity);
+        self.cells.kinds.extend(cells.kinds);
+        self.cells.offsets.extend(cells.offsets.iter().skip(1).map(|end| base + end));
+        self.cells.polyhedra.extend(cells.polyhedra);
+    }
+
     /// Adds a cell that names its points.
     ///
     /// Points beyond those that its kind has are left out; too few are kept, for the mesh to count the cell as malformed.

@@ -10,6 +10,7 @@ mod grids;
 mod join;
 mod legacy;
 pub(crate) mod named;
+mod numbers;
 pub(crate) mod scalars;
 mod tuples;
 mod write;
@@ -26,6 +27,7 @@ pub(crate) use test_support::sanity_check;
 
 pub(crate) use legacy::LegacyVtk;
 pub use write::{VtuEncoding, VtuOptions, WrittenVtu, write_vtu, write_vtu_with};
+pub(crate) use xml::AppendedSearch;
 use xml::{BlocksReader, Kind, ParallelReader, PvdReader, SeriesReader, XmlReader};
 
 /// The reader of legacy files.

@@ -1,8 +1,9 @@
 //! Numbers of a declared type, from words of text or from bytes.
 
-use std::str::FromStr;
-
 use tetrascope_mesh::ArrayValues;
+
+pub(crate) use super::numbers::BadWord;
+use super::numbers::{from_bytes, from_words};
 
 /// The type of an array's numbers as its file declares it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -26,14 +27,54 @@ pub(crate) enum ByteOrder {
     Big,
 }
 
-/// A word among numbers that is none of the declared type.
-#[derive(Debug)]
-pub(crate) struct BadWord {
-    /// How many numbers were read before it.
-    pub(crate) index: usize,
-    /// The word, cut to a length that fits a message.
-    pub(crate) word: String,
+/// Runs one expression with `$t` as the Rust type of a scalar type.
+macro_rules! with_type {
+    ($scalar:expr, $t:ident => $body:expr) => {
+        match $scalar {
+            ScalarType::I8 => {
+                type $t = i8;
+                $body
+            }
+            ScalarType::U8 => {
+                type $t = u8;
+                $body
+            }
+            ScalarType::I16 => {
+                type $t = i16;
+                $body
+            }
+            ScalarType::U16 => {
+                type $t = u16;
+                $body
+            }
+            ScalarType::I32 => {
+                type $t = i32;
+                $body
+            }
+            ScalarType::U32 => {
+                type $t = u32;
+                $body
+            }
+            ScalarType::I64 => {
+                type $t = i64;
+                $body
+            }
+            ScalarType::U64 => {
+                type $t = u64;
+                $body
+            }
+            ScalarType::F32 => {
+                type $t = f32;
+                $body
+            }
+            ScalarType::F64 => {
+                type $t = f64;
+                $body
+            }
+        }
+    };
 }
+pub(crate) use with_type;
 
 /// Runs one expression with `$t` as the Rust type of a scalar type, and wraps the vector that it gives.
 macro_rules! for_type {
@@ -82,6 +123,7 @@ macro_rules! for_type {
         }
     };
 }
+pub(crate) use for_type;
 
 impl ScalarType {
     /// Bytes a number takes.
@@ -94,9 +136,14 @@ impl ScalarType {
         }
     }
 
+    /// Whether its numbers are whole.
+    pub(crate) fn is_whole(self) -> bool {
+        !matches!(self, Self::F32 | Self::F64)
+    }
+
     /// Numbers from bytes; what is left over behind the last whole number is not read.
     pub(crate) fn decode_bytes(self, bytes: &[u8], order: ByteOrder) -> ArrayValues {
-        for_type!(self, T => from_bytes::<T, { size_of::<T>() }>(bytes, order))
+        for_type!(self, T => from_bytes::<T>(bytes, order))
     }
 
     /// Numbers from words, at most `limit` of them; fewer where the words end before.
@@ -110,78 +157,6 @@ impl ScalarType {
     ) -> Result<ArrayValues, BadWord> {
         Ok(for_type!(self, T => from_words::<T>(words, limit)?))
     }
-}
-
-/// One number in either of the two forms that files have.
-trait Scalar<const SIZE: usize>: Sized {
-    fn from_le(bytes: [u8; SIZE]) -> Self;
-    fn from_be(bytes: [u8; SIZE]) -> Self;
-}
-
-trait Word: FromStr {
-    /// Values that the standard parser does not know, as other programs print them.
-    fn special(_word: &str) -> Option<Self> {
-        None
-    }
-}
-
-macro_rules! scalar {
-    ($($t:ty),*) => {$(
-        impl Scalar<{ size_of::<$t>() }> for $t {
-            fn from_le(bytes: [u8; size_of::<$t>()]) -> Self {
-                Self::from_le_bytes(bytes)
-            }
-            fn from_be(bytes: [u8; size_of::<$t>()]) -> Self {
-                Self::from_be_bytes(bytes)
-            }
-        }
-    )*};
-}
-scalar!(i8, u8, i16, u16, i32, u32, i64, u64, f32, f64);
-
-macro_rules! word {
-    ($($t:ty),*) => {$( impl Word for $t {} )*};
-}
-word!(i8, u8, i16, u16, i32, u32, i64, u64);
-
-macro_rules! float_word {
-    ($($t:ident),*) => {$(
-        impl Word for $t {
-            fn special(word: &str) -> Option<Self> {
-                // Windows' C library prints 1.#QNAN, -1.#IND, 1.#INF; glibc and others nan(...) with a payload.
-                let word = word.to_ascii_lowercase();
-                let (negative, rest) = word.strip_prefix('-').map_or((false, word.as_str()), |rest| (true, rest));
-                if rest.starts_with("nan(") || ["1.#qnan", "1.#snan", "1.#ind", "1.#nan"].iter().any(|w| rest.starts_with(w)) {
-                    Some($t::NAN)
-                } else if rest.starts_with("1.#inf") {
-                    Some(if negative { $t::NEG_INFINITY } else { $t::INFINITY })
-                } else {
-                    None
-                }
-            }
-        }
-    )*};
-}
-float_word!(f32, f64);
-
-fn from_bytes<T: Scalar<SIZE>, const SIZE: usize>(bytes: &[u8], order: ByteOrder) -> Vec<T> {
-    let (chunks, _) = bytes.as_chunks::<SIZE>();
-    match order {
-        ByteOrder::Little => chunks.iter().map(|&chunk| T::from_le(chunk)).collect(),
-        ByteOrder::Big => chunks.iter().map(|&chunk| T::from_be(chunk)).collect(),
-    }
-}
-
-fn from_words<T: Word>(words: &mut dyn Iterator<Item = &str>, limit: usize) -> Result<Vec<T>, BadWord> {
-    let mut values = Vec::new();
-    while values.len() < limit {
-        let Some(word) = words.next() else { break };
-        match word.parse().ok().or_else(|| T::special(word)) {
-            Some(value) => values.push(value),
-            None => return Err(BadWord { index: values.len(), word: word.chars().take(40).collect() }),
-        }
-    }
-    Ok(values)
 }
 
 /// Whole numbers as they are used for indices. Nothing for arrays of floating-point numbers; numbers beyond `i64` become

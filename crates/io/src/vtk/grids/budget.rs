@@ -53,6 +53,16 @@ impl Budget {
         self.granted.set(self.granted.get().saturating_add(bytes.saturating_mul(per_byte)));
     }
 
+    /// What was taken so far, to be [restored](Self::restore).
+    pub(in crate::vtk) fn spent(&self) -> usize {
+        self.spent.get()
+    }
+
+    /// Gives back all that was taken since: it is to be taken again.
+    pub(in crate::vtk) fn restore(&self, spent: usize) {
+        self.spent.set(spent);
+    }
+
     /// Takes so many numbers of `size` bytes. The error says what the limit is, for the caller to add the place.
     pub(in crate::vtk) fn spend(&self, numbers: usize, size: usize) -> Result<(), String> {
         let (cost, always) = self.limit.cost(numbers, size);

@@ -5,9 +5,8 @@ use tetrascope_mesh::DataArray;
 
 use super::super::DAMAGED;
 use super::super::named::NamedArrays;
-use super::super::scalars::to_indices;
 use super::file::{ArrayElement, Piece, XmlFile};
-use super::payload::{decode, place, scalar_type};
+use super::payload::{Wanted, decode, place, scalar_type};
 use crate::{IoError, Source};
 
 /// Checks a length against tuples times components; declared counts may be anything, so in 128 bits.
@@ -46,9 +45,8 @@ pub(super) fn read_points(source: &Source, file: &XmlFile<'_>, piece: &Piece<'_>
     if let Some(components) = array.components.as_deref().filter(|text| text.trim() != "3") {
         return Err(invalid(format!("points have 3 components, not \"{components}\"")));
     }
-    let values = decode(source, file, array, scalar, label)?;
-    check_length(source, array, label, values.len(), piece.point_count, 3, "points")?;
-    let flat = values.to_f64();
+    let flat = Wanted { source, file, array, scalar, label }.decode_f64()?;
+    check_length(source, array, label, flat.len(), piece.point_count, 3, "points")?;
     Ok(flat.as_chunks::<3>().0.iter().map(|&triple| DVec3::from_array(triple)).collect())
 }
 
@@ -59,13 +57,28 @@ pub(super) fn indices(
     piece: &Piece<'_>,
     name: &str,
 ) -> Result<Option<Vec<i64>>, IoError> {
+    let Some(wanted) = wanted_indices(source, file, piece, name)? else { return Ok(None) };
+    let mut numbers = Vec::new();
+    if wanted.turn_indices(&mut numbers, 0, Some)? && wanted.scalar.is_whole() {
+        return Ok(Some(numbers));
+    }
+    let problem = format!("indices cannot be of the type {}", wanted.array.type_name);
+    Err(source.invalid(place(source, wanted.array, name), problem, DAMAGED))
+}
+
+/// One of the index arrays of `Cells`, to be decoded; nothing where the piece does not have it.
+pub(super) fn wanted_indices<'w>(
+    source: &'w Source,
+    file: &'w XmlFile<'_>,
+    piece: &'w Piece<'_>,
+    name: &'w str,
+) -> Result<Option<Wanted<'w>>, IoError> {
     let Some(array) = index_array(piece, name) else { return Ok(None) };
-    let invalid = |problem: String| source.invalid(place(source, array, name), problem, DAMAGED);
-    let scalar = scalar_type(&array.type_name)
-        .ok_or_else(|| invalid(format!("the type \"{}\" is no type of numbers", array.type_name)))?;
-    let values = to_indices(&decode(source, file, array, scalar, name)?)
-        .ok_or_else(|| invalid(format!("indices cannot be of the type {}", array.type_name)))?;
-    Ok(Some(values))
+    let scalar = scalar_type(&array.type_name).ok_or_else(|| {
+        let problem = format!("the type \"{}\" is no type of numbers", array.type_name);
+        source.invalid(place(source, array, name), problem, DAMAGED)
+    })?;
+    Ok(Some(Wanted { source, file, array, scalar, label: name }))
 }
 
 /// Where one of these arrays is.
@@ -126,7 +139,7 @@ pub(super) fn read_coordinates(
         let problem = format!("the type \"{}\" is no type of numbers", array.type_name);
         source.invalid(place(source, array, label), problem, DAMAGED)
     })?;
-    let values = decode(source, file, array, scalar, label)?;
+    let values = Wanted { source, file, array, scalar, label }.decode_f64()?;
     check_length(source, array, label, values.len(), count as u64, 1, "coordinates")?;
-    Ok(values.to_f64())
+    Ok(values)
 }

@@ -168,7 +168,7 @@ fn read_parts(source: &Source, named: Vec<Named>, mut warnings: Vec<String>) -> 
     let (mut formats, mut refused) = (Vec::new(), None);
     for one in &named {
         let path = one.path(source)?;
-        match read_part(&path) {
+        match read_part(&path, &source.options) {
             Ok(loaded) => {
                 warnings.extend(loaded.warnings);
                 formats.push(loaded.format);

@@ -46,27 +46,37 @@ const ZLIB_RATIO: usize = 1032;
 /// Bytes that a byte of LZ4 can stand for (LZ4 block format: lengths of 255 a byte).
 const LZ4_RATIO: usize = 255;
 
+impl Compressor {
+    /// Whether a block can hold `size` bytes. Memory may be taken for them then, and not before.
+    pub(super) fn check(self, block: &[u8], size: usize) -> Result<(), String> {
+        let ratio = match self {
+            Self::Zlib => ZLIB_RATIO,
+            Self::Lz4 => LZ4_RATIO,
+            Self::Lzma => return xz::check(block, size),
+        };
+        if size > block.len().saturating_add(1).saturating_mul(ratio) {
+            return Err(format!(
+                "{} bytes of {} cannot hold the {size} bytes that are declared",
+                block.len(),
+                self.label()
+            ));
+        }
+        Ok(())
+    }
+}
+
 impl Decompressor {
     pub(super) fn new(compressor: Compressor) -> Self {
         Self { compressor, zlib: Decompress::new(true) }
     }
 
-    /// Appends one block's content to `out`. Never more than `size` bytes are written, and memory is taken after `size` was found to be
-    /// within what the block can hold.
+    /// Appends the content of one block, which can hold as much ([`Compressor::check`]), to `out`. Never more than `size` bytes are written.
     ///
     /// The error says what is wrong, for the caller to add the place.
     pub(super) fn decompress(&mut self, block: &[u8], size: usize, out: &mut Vec<u8>) -> Result<(), String> {
         let start = out.len();
-        let label = self.compressor.label();
-        let refuse_beyond = |ratio: usize| {
-            if size > block.len().saturating_add(1).saturating_mul(ratio) {
-                return Err(format!("{} bytes of {label} cannot hold the {size} bytes that are declared", block.len()));
-            }
-            Ok(())
-        };
         match self.compressor {
             Compressor::Zlib => {
-                refuse_beyond(ZLIB_RATIO)?;
                 // One byte more than declared: enough to see that a block inflates further, without following it.
                 out.reserve(size + 1);
                 self.zlib.reset(true);
@@ -79,13 +89,12 @@ impl Decompressor {
                 }
             }
             Compressor::Lz4 => {
-                refuse_beyond(LZ4_RATIO)?;
                 out.resize(start + size, 0);
                 let written = lz4_flex::block::decompress_into(block, &mut out[start..])
                     .map_err(|e| format!("its LZ4 block is damaged ({e})"))?;
                 out.truncate(start + written);
             }
-            Compressor::Lzma => xz::decompress(block, size, out)?,
+            Compressor::Lzma => xz::decompress(block, out)?,
         }
         let found = out.len() - start;
         if found > size {

@@ -9,15 +9,15 @@ use quick_xml::reader::Reader;
 use super::super::DAMAGED;
 use super::super::grids::Lattice;
 use super::super::grids::budget::Budget;
-use super::super::grids::extent::Extent;
 use super::super::scalars::ByteOrder;
 use super::Kind;
 use super::appended::find_appended;
 use super::attributes::{Attributes, line, shorten};
-use super::compression::Compressor;
-use super::file::{ArrayElement, Piece, XmlFile, without_mark};
-use super::steps::{is_piece_a_step, keep_last_listed, last_step};
-use crate::{IoError, Source};
+use super::declared::{read_array, read_grid, read_piece, read_root};
+use super::file::{Appended, ArrayElement, Piece, XmlFile, without_mark};
+use super::steps::{is_piece_a_step, keep_last_listed};
+use crate::progress::{Meter, ReadStage};
+use crate::{IoError, OpenFile, Source};
 
 /// What an open element is; all that matters for knowing where an array belongs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -36,7 +36,33 @@ enum Open {
 }
 
 /// Lists the arrays of a file of this kind.
-pub(super) fn parse<'a>(source: &'a Source, kind: Kind, budget: &'a Budget) -> Result<XmlFile<'a>, IoError> {
+///
+/// - `opened`: the file, where only its beginning is in memory, and [that is enough](is_enough)
+pub(super) fn parse<'a>(
+    source: &'a Source,
+    opened: Option<&'a OpenFile>,
+    kind: Kind,
+    budget: &'a Budget,
+) -> Result<XmlFile<'a>, IoError> {
+    let file = list(source, opened, kind, budget)?;
+    budget.grant(opened.map_or(source.bytes.len(), OpenFile::length));
+    Ok(file)
+}
+
+/// Whether the beginning of a file is all of it that has to be in memory. Where anything is wrong with it, it is not, as that is said of whole files.
+pub(super) fn is_enough(beginning: &Source, opened: &OpenFile, kind: Kind) -> bool {
+    let budget = Budget::new(kind.limit());
+    beginning.bytes.len() < opened.length()
+        && list(beginning, Some(opened), kind, &budget)
+            .is_ok_and(|file| matches!(file.appended, Some(Appended::Open { .. })))
+}
+
+fn list<'a>(
+    source: &'a Source,
+    opened: Option<&'a OpenFile>,
+    kind: Kind,
+    budget: &'a Budget,
+) -> Result<XmlFile<'a>, IoError> {
     let bytes = without_mark(&source.bytes);
     let mut reader = Reader::from_reader(bytes);
     // An empty element then looks like one with nothing in it.
@@ -50,12 +76,12 @@ pub(super) fn parse<'a>(source: &'a Source, kind: Kind, budget: &'a Budget) -> R
         pieces: Vec::new(),
         appended: None,
         budget,
+        meter: Meter::new(&source.path, &source.options, ReadStage::Decoding, source.bytes.len() as u64),
         lattice: Lattice::default(),
         field_data: Vec::new(),
         times: Vec::new(),
         step: 0,
     };
-    budget.grant(bytes.len());
     let mut whole_extent = None;
     let mut open: Vec<Open> = Vec::new();
     let mut root_seen = false;
@@ -87,7 +113,7 @@ pub(super) fn parse<'a>(source: &'a Source, kind: Kind, budget: &'a Budget) -> R
                         Open::Grid
                     }
                     (Some(Open::Root), "AppendedData") => {
-                        file.appended = Some(find_appended(&attributes, position(&reader))?);
+                        file.appended = Some(find_appended(&attributes, opened, position(&reader))?);
                         // The section is not XML: nothing behind this tag may be parsed as such.
                         break;
                     }
@@ -192,95 +218,4 @@ fn current_array<'f, 'a>(file: &'f mut XmlFile<'a>, open: &[Open]) -> Option<&'f
         [.., section, Open::Array] => arrays_of(file, *section)?.last_mut(),
         _ => None,
     }
-}
-
-fn read_root(attributes: &Attributes<'_, '_>, kind: Kind, file: &mut XmlFile<'_>) -> Result<(), IoError> {
-    let source = attributes.source;
-    let found = attributes.get("type")?.unwrap_or_default();
-    if found.trim() != kind.type_name() {
-        return Err(source.unsupported(
-            format!("a VTK file of the type \"{}\"", shorten(&found)),
-            "convert it to an unstructured grid with ParaView (Append Datasets, then Save Data as .vtu)",
-        ));
-    }
-    file.version = shorten(&attributes.get("version")?.unwrap_or_else(|| "without version".to_owned()));
-    file.byte_order = match attributes.get("byte_order")?.as_deref().map(str::trim) {
-        None | Some("LittleEndian") => ByteOrder::Little,
-        Some("BigEndian") => ByteOrder::Big,
-        Some(other) => return Err(attributes.unknown("byte_order", other, "LittleEndian and BigEndian")),
-    };
-    // Without the attribute the words are of 32 bits, whatever the version says.
-    file.header_size = match attributes.get("header_type")?.as_deref().map(str::trim) {
-        None | Some("UInt32") => 4,
-        Some("UInt64") => 8,
-        Some(other) => return Err(attributes.unknown("header_type", other, "UInt32 and UInt64")),
-    };
-    file.compressor = match attributes.get("compressor")?.as_deref().map(str::trim) {
-        None | Some("") => None,
-        Some(name) => Some(Compressor::named(name).ok_or_else(|| {
-            source.unsupported(
-                format!("the compressor \"{}\"", shorten(name)),
-                "save it with the compressor vtkZLibDataCompressor, or without one",
-            )
-        })?),
-    };
-    Ok(())
-}
-
-/// The attributes of the element around the pieces; gives the whole box of a grid.
-fn read_grid(attributes: &Attributes<'_, '_>, kind: Kind, file: &mut XmlFile<'_>) -> Result<Option<Extent>, IoError> {
-    if let Some(text) = attributes.get("TimeValues")? {
-        let times: Result<Vec<f64>, _> = text.split_ascii_whitespace().map(str::parse).collect();
-        file.times = times.map_err(|_| {
-            let problem = format!("the attribute `TimeValues` is \"{}\", not a list of numbers", shorten(&text));
-            attributes.source.invalid(attributes.place(), problem, DAMAGED)
-        })?;
-        file.step = attributes.source.step(&file.times)?;
-    }
-    if kind == Kind::Unstructured {
-        return Ok(None);
-    }
-    if kind == Kind::Image {
-        let usual = Lattice::default();
-        file.lattice = Lattice {
-            origin: attributes.numbers("Origin")?.unwrap_or(usual.origin),
-            spacing: attributes.numbers("Spacing")?.unwrap_or(usual.spacing),
-            direction: attributes.numbers("Direction")?.unwrap_or(usual.direction),
-        };
-    }
-    // It may be larger than any mesh; what counts are the pieces.
-    Ok(attributes.extent("WholeExtent").ok().flatten())
-}
-
-fn read_piece<'a>(
-    attributes: &Attributes<'_, '_>,
-    kind: Kind,
-    whole_extent: Option<Extent>,
-) -> Result<Piece<'a>, IoError> {
-    if kind == Kind::Unstructured {
-        let (point_count, cell_count) = (attributes.count("NumberOfPoints")?, attributes.count("NumberOfCells")?);
-        return Ok(Piece { point_count, cell_count, ..Piece::default() });
-    }
-    let extent = match attributes.extent("Extent")? {
-        Some(extent) => extent,
-        None => whole_extent.ok_or_else(|| {
-            let problem = "it has no attribute `Extent`, and there is no `WholeExtent` that could stand for it";
-            attributes.source.invalid(attributes.place(), problem, DAMAGED)
-        })?,
-    };
-    let (point_count, cell_count) = (extent.point_count() as u64, extent.cell_count() as u64);
-    Ok(Piece { point_count, cell_count, extent: Some(extent), ..Piece::default() })
-}
-
-fn read_array<'a>(attributes: &Attributes<'_, '_>, step: usize) -> Result<ArrayElement<'a>, IoError> {
-    Ok(ArrayElement {
-        listed: last_step(attributes, step)?,
-        name: attributes.get("Name")?.unwrap_or_default(),
-        type_name: attributes.get("type")?.unwrap_or_default().trim().to_owned(),
-        components: attributes.get("NumberOfComponents")?,
-        format: attributes.get("format")?.unwrap_or_else(|| "ascii".to_owned()).trim().to_owned(),
-        offset: attributes.get("offset")?,
-        text: Vec::new(),
-        position: attributes.start,
-    })
 }

@@ -6,6 +6,8 @@ use super::super::grids::extent::Extent;
 use super::super::scalars::ByteOrder;
 use super::Kind;
 use super::compression::Compressor;
+use crate::progress::Meter;
+use crate::{IoError, OpenFile};
 
 /// All that stands around the arrays, and these undecoded.
 #[derive(Debug)]
@@ -26,6 +28,8 @@ pub(super) struct XmlFile<'a> {
     pub(super) appended: Option<Appended<'a>>,
     /// What the arrays may come to.
     pub(super) budget: &'a Budget,
+    /// Counts what was decoded of a file that is in memory; one that is not counts what is read.
+    pub(super) meter: Meter,
     /// Where image data lie.
     pub(super) lattice: Lattice,
     /// Arrays of the whole file.
@@ -34,6 +38,24 @@ pub(super) struct XmlFile<'a> {
     pub(super) times: Vec<f64>,
     /// The step whose arrays are listed.
     pub(super) step: usize,
+}
+
+impl XmlFile<'_> {
+    /// Reports so many more bytes as decoded.
+    pub(super) fn advance(&self, bytes: usize) -> Result<(), IoError> {
+        match self.appended {
+            Some(Appended::Open { .. }) => Ok(()),
+            _ => self.meter.advance(bytes),
+        }
+    }
+
+    /// Reports that all is decoded.
+    pub(super) fn finish(&self) -> Result<(), IoError> {
+        match self.appended {
+            Some(Appended::Open { file, .. }) => file.meter().finish(),
+            _ => self.meter.finish(),
+        }
+    }
 }
 
 /// One `Piece` element.
@@ -89,6 +111,11 @@ pub(super) enum Listed {
 pub(super) enum Appended<'a> {
     Raw(&'a [u8]),
     Base64(&'a [u8]),
+    /// Raw bytes that are not in memory, from byte `start` of the file on.
+    Open {
+        file: &'a OpenFile,
+        start: usize,
+    },
 }
 
 /// The bytes without a byte-order mark of UTF-8.

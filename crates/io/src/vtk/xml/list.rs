@@ -7,10 +7,11 @@ use quick_xml::events::Event;
 use quick_xml::reader::Reader;
 
 use super::super::DAMAGED;
+use super::appended::AppendedSearch;
 use super::attributes::{Attributes, line, shorten};
 use super::file::without_mark;
-use crate::open::read_whole;
-use crate::{IoError, Source};
+use crate::opened::{FIRST, read_beginning};
+use crate::{IoError, OpenFile, Source};
 
 /// What to do where a file that another one names is not there.
 const TOGETHER: &str = "keep the files together, in the folders in which they were written";
@@ -126,10 +127,12 @@ impl Named {
         }
     }
 
-    /// The file's content, to be understood with the same options.
-    pub(super) fn read(&self, source: &Source) -> Result<Source, IoError> {
+    /// The beginning of the file, to be understood with the same options, and the file.
+    pub(super) fn open(&self, source: &Source) -> Result<(Source, OpenFile), IoError> {
         let path = self.path(source)?;
-        Ok(Source { bytes: read_whole(&path)?, path, options: source.options.clone() })
+        let mut appended = AppendedSearch::default();
+        let (bytes, file) = read_beginning(&path, &source.options, FIRST, |bytes| appended.is_found(bytes))?;
+        Ok((Source { bytes, path, options: source.options.clone() }, file))
     }
 }
 

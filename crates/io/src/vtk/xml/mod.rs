@@ -1,32 +1,40 @@
 //! The readers of VTK's XML files: unstructured grids, image data, rectilinear and structured grids, one file or several.
 //!
 //! A file is read in three steps that know little of each other: `elements` lists the arrays with their attributes and
-//! undecoded text, `payload` turns one array's text or appended bytes into numbers, `unstructured` or `structured` puts the arrays of all
+//! undecoded text, `payload` turns one array's text or appended bytes into numbers (`body` piece by piece, `text` word by word), `unstructured` or `structured` puts the arrays of all
 //! pieces together into a dataset. `parallel` and `collection` do so for files that name others.
 
 mod appended;
 mod arrays;
 mod attributes;
+mod body;
 mod collection;
 mod compression;
+mod declared;
 mod elements;
+mod encoded;
 mod faces;
 mod file;
 mod list;
 mod parallel;
 mod payload;
+mod regular;
 mod steps;
 mod structured;
+mod text;
 mod unstructured;
 mod xz;
 
 #[cfg(test)]
 pub(in crate::vtk) mod grid_tests;
 #[cfg(test)]
+mod large_tests;
+#[cfg(test)]
 mod named_tests;
 #[cfg(test)]
 pub(in crate::vtk) mod tests;
 
+pub(crate) use appended::AppendedSearch;
 pub(crate) use collection::{BlocksReader, PvdReader, SeriesReader};
 pub(crate) use parallel::ParallelReader;
 
@@ -35,7 +43,7 @@ use std::collections::HashSet;
 use super::DAMAGED;
 use super::grids::budget::{Budget, Limit};
 use super::grids::{GRID_LIMIT, dims_of, merge};
-use crate::{IoError, Loaded, MeshReader, Source};
+use crate::{IoError, Loaded, MeshReader, OpenFile, Source};
 use file::{Appended, XmlFile};
 
 /// The kinds of dataset that one file holds.
@@ -122,20 +130,39 @@ impl MeshReader for XmlReader {
 
     fn read(&self, source: &Source) -> Result<Loaded, IoError> {
         let budget = Budget::new(self.kind.limit());
-        let file = elements::parse(source, self.kind, &budget)?;
+        self.assemble(source, &elements::parse(source, None, self.kind, &budget)?)
+    }
+
+    fn read_open(&self, beginning: &Source, file: &OpenFile) -> Result<Option<Loaded>, IoError> {
+        if !elements::is_enough(beginning, file, self.kind) {
+            return Ok(None);
+        }
+        let budget = Budget::new(self.kind.limit());
+        self.assemble(beginning, &elements::parse(beginning, Some(file), self.kind, &budget)?).map(Some)
+    }
+}
+
+impl XmlReader {
+    fn assemble(&self, source: &Source, file: &XmlFile<'_>) -> Result<Loaded, IoError> {
         let mut warnings = Vec::new();
         let dataset = match self.kind {
-            Kind::Unstructured => unstructured::assemble(source, &file, &mut warnings)?,
+            Kind::Unstructured => unstructured::assemble(source, file, &mut warnings)?,
             _ => {
-                let pieces = structured::read_pieces(source, &file, &mut warnings)?;
+                let pieces = structured::read_pieces(source, file, &mut warnings)?;
                 merge::assemble(pieces, &mut warnings)
                     .map_err(|problem| source.invalid("the pieces of the grid", problem, DAMAGED))?
             }
         };
-        let format = describe(&file) + &dims_of(&dataset);
-        let (times, step) = times(source, &file);
+        let format = describe(file) + &dims_of(&dataset);
+        let (times, step) = times(source, file);
+        file.finish()?;
         Ok(Loaded { dataset, format, warnings: distinct(warnings), times, step })
     }
+}
+
+/// Whether a root of this type has all of its data in one file.
+fn is_one_file(found: &str) -> bool {
+    [Kind::Unstructured, Kind::Image, Kind::Rectilinear, Kind::Structured].iter().any(|kind| found == kind.type_name())
 }
 
 /// The `type` of the root element, if this is a VTK XML file at all. An attribute that is missing or broken counts as an empty one.
@@ -196,7 +223,7 @@ fn describe(file: &XmlFile<'_>) -> String {
     let mut text = format!("{} {}", file.kind.label(), file.version);
     match (formats.next(), file.appended) {
         (Some("ascii") | None, _) => text += ", ASCII",
-        (Some("appended"), Some(Appended::Raw(_))) => text += ", appended raw",
+        (Some("appended"), Some(Appended::Raw(_) | Appended::Open { .. })) => text += ", appended raw",
         (Some("appended"), _) => text += ", appended base64",
         _ => text += ", inline base64",
     }

@@ -56,8 +56,12 @@ impl MeshReader for ParallelReader {
         let (mut parts, mut pieces) = (Vec::new(), Vec::new());
         let (mut format, mut known_times) = (String::new(), (Vec::new(), 0));
         for one in &named {
-            let own = one.read(source)?;
-            let file = elements::parse(&own, self.kind, &budget)?;
+            let (mut own, opened) = one.open(source)?;
+            let is_enough = elements::is_enough(&own, &opened, self.kind);
+            if !is_enough {
+                opened.read_rest(&mut own.bytes)?;
+            }
+            let file = elements::parse(&own, is_enough.then_some(&opened), self.kind, &budget)?;
             match self.kind {
                 Kind::Unstructured => parts.push(unstructured::assemble(&own, &file, &mut warnings)?),
                 _ => pieces.extend(structured::read_pieces(&own, &file, &mut warnings)?),
@@ -66,6 +70,7 @@ impl MeshReader for ParallelReader {
                 format = describe(&file);
                 known_times = times(&own, &file);
             }
+            file.finish()?;
         }
         let joined = match self.kind {
             Kind::Unstructured => join(parts, &mut warnings),

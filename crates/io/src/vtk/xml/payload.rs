@@ -3,28 +3,22 @@
 //! Layout, as VTK's XML writer produces it. Without compression: one word with the number of bytes, then the bytes. With
 //! compression: words for the number of blocks, their uncompressed size, the last one's if it is partial (else 0), and each
 //! one's compressed size; then the blocks. In base64 the header of a compressed array is encoded apart from its blocks.
+//!
+//! Numbers are turned into what they are for as they are decoded, so that no array is in memory twice.
 
 use std::borrow::Cow;
 
-use base64::Engine;
-use base64::alphabet::STANDARD;
-use base64::engine::{DecodePaddingMode, GeneralPurpose, GeneralPurposeConfig};
 use tetrascope_mesh::ArrayValues;
 
 use super::super::DAMAGED;
-use super::super::scalars::{ByteOrder, ScalarType};
+use super::super::numbers::Scalar;
+use super::super::scalars::{ByteOrder, ScalarType, for_type, with_type};
 use super::attributes::line;
-use super::compression::Decompressor;
+use super::body::{Blocks, Body};
+use super::encoded::{Encoded, Problem, Stored, too_short};
 use super::file::{Appended, ArrayElement, XmlFile, without_mark};
+use super::text;
 use crate::{IoError, Source};
-
-/// Writers differ in whether they pad the end, and in the bits that fill the last character.
-const BASE64: GeneralPurpose = GeneralPurpose::new(
-    &STANDARD,
-    GeneralPurposeConfig::new()
-        .with_decode_padding_mode(DecodePaddingMode::Indifferent)
-        .with_decode_allow_trailing_bits(true),
-);
 
 /// The type that an array's `type` attribute names; nothing for text and bit arrays and for unknown names.
 pub(super) fn scalar_type(name: &str) -> Option<ScalarType> {
@@ -43,6 +37,17 @@ pub(super) fn scalar_type(name: &str) -> Option<ScalarType> {
     })
 }
 
+/// An array that is wanted.
+#[derive(Clone, Copy)]
+pub(super) struct Wanted<'w> {
+    pub(super) source: &'w Source,
+    pub(super) file: &'w XmlFile<'w>,
+    pub(super) array: &'w ArrayElement<'w>,
+    pub(super) scalar: ScalarType,
+    /// What to call it in messages.
+    pub(super) label: &'w str,
+}
+
 /// Reads an array's numbers.
 ///
 /// - `label`: what to call the array in messages
@@ -56,45 +61,124 @@ pub(super) fn decode(
     scalar: ScalarType,
     label: &str,
 ) -> Result<ArrayValues, IoError> {
-    let invalid = |problem: String| source.invalid(place(source, array, label), problem, DAMAGED);
-    let bytes = match array.format.to_ascii_lowercase().as_str() {
-        "ascii" => {
-            let mut words = array.text.iter().flat_map(|text| text.split_ascii_whitespace());
-            return scalar.parse_words(&mut words, usize::MAX).map_err(|bad| {
-                invalid(format!("value {} is \"{}\", which is no {}", bad.index, bad.word, array.type_name))
-            });
-        }
-        "binary" => {
-            let text: String = array.text.iter().flat_map(|text| text.split_ascii_whitespace()).collect();
-            if text.is_empty() {
-                return Ok(scalar.decode_bytes(&[], file.byte_order));
+    let wanted = Wanted { source, file, array, scalar, label };
+    Ok(for_type!(scalar, T => {
+        let mut numbers = Vec::new();
+        wanted.turn::<T, T>(&mut numbers, T::default(), Some)?;
+        numbers
+    }))
+}
+
+impl Wanted<'_> {
+    /// Reads whole numbers as they are used for indices and turns them into something, behind what is in `made` already; false as soon as
+    /// one could not be, as no floating-point number can, and then without the rest.
+    ///
+    /// # Errors
+    /// As of [`decode`].
+    pub(super) fn turn_indices<T: Copy + Send>(
+        &self,
+        made: &mut Vec<T>,
+        blank: T,
+        turn: impl Fn(i64) -> Option<T> + Sync,
+    ) -> Result<bool, IoError> {
+        with_type!(self.scalar, S => self.turn::<S, T>(made, blank, |number| number.to_index().and_then(&turn)))
+    }
+
+    /// Reads numbers of any type as f64.
+    ///
+    /// # Errors
+    /// As of [`decode`].
+    pub(super) fn decode_f64(&self) -> Result<Vec<f64>, IoError> {
+        let mut numbers = Vec::new();
+        with_type!(self.scalar, S => self.turn::<S, f64>(&mut numbers, 0.0, |number| Some(number.to_f64())))?;
+        Ok(numbers)
+    }
+
+    fn turn<S: Scalar, T: Copy + Send>(
+        &self,
+        made: &mut Vec<T>,
+        blank: T,
+        turn: impl Fn(S) -> Option<T> + Sync,
+    ) -> Result<bool, IoError> {
+        let Self { source, file, array, scalar, label } = *self;
+        let invalid = |problem: String| source.invalid(place(source, array, label), problem, DAMAGED);
+        let body = match array.format.to_ascii_lowercase().as_str() {
+            "ascii" => {
+                return text::turn(&array.text, file, made, turn)?.map_err(|bad| {
+                    invalid(format!("value {} is \"{}\", which is no {}", bad.index, bad.word, array.type_name))
+                });
             }
-            read_bytes(Encoded::Base64(text.as_bytes()), file, scalar).map(Cow::into_owned).map_err(invalid)?
+            "binary" => {
+                let text = text::without_white_space(&array.text);
+                if text.is_empty() {
+                    return Ok(true);
+                }
+                return self.turn_bytes(open(Encoded::Base64(text.as_bytes()), file, scalar), made, blank, turn);
+            }
+            "appended" => {
+                let appended =
+                    file.appended.ok_or_else(|| invalid("there is no appended data in the file".to_owned()))?;
+                let offset = array.offset.as_deref().unwrap_or_default();
+                let start: usize = offset
+                    .trim()
+                    .parse()
+                    .map_err(|_| invalid(format!("its offset is \"{}\", not a number of bytes", offset.trim())))?;
+                let encoded = appended.from(start).ok_or_else(|| {
+                    let there = appended.length();
+                    invalid(format!("its offset is {start}, but only {there} bytes of appended data are there"))
+                })?;
+                open(encoded, file, scalar)
+            }
+            other => {
+                let other: String = other.chars().take(40).collect();
+                return Err(invalid(format!("its format is \"{other}\", where ascii, binary and appended are known")));
+            }
+        };
+        self.turn_bytes(body, made, blank, turn)
+    }
+
+    fn turn_bytes<S: Scalar, T: Copy + Send>(
+        &self,
+        body: Result<Body<'_>, Problem>,
+        made: &mut Vec<T>,
+        blank: T,
+        turn: impl Fn(S) -> Option<T> + Sync,
+    ) -> Result<bool, IoError> {
+        let Self { source, file, array, scalar, label } = *self;
+        let (size, order) = (scalar.size(), file.byte_order);
+        let done = body.and_then(|body| {
+            let length = body.length();
+            if !length.is_multiple_of(size) {
+                return Err(format!("it has {length} bytes, which is no multiple of the {size} of a value").into());
+            }
+            body.turn(file, size, made, blank, &|bytes: &[u8], made: &mut [T]| S::turn_bytes(bytes, order, made, &turn))
+        });
+        done.map_err(|problem| match problem {
+            Problem::Words(words) => source.invalid(place(source, array, label), words, DAMAGED),
+            Problem::Failed(error) => error,
+        })
+    }
+}
+
+impl<'a> Appended<'a> {
+    fn length(&self) -> usize {
+        match self {
+            Self::Raw(section) | Self::Base64(section) => section.len(),
+            Self::Open { file, start } => file.length().saturating_sub(*start),
         }
-        "appended" => {
-            let appended = file.appended.ok_or_else(|| invalid("there is no appended data in the file".to_owned()))?;
-            let offset = array.offset.as_deref().unwrap_or_default();
-            let start: usize = offset
-                .trim()
-                .parse()
-                .map_err(|_| invalid(format!("its offset is \"{}\", not a number of bytes", offset.trim())))?;
-            let (Appended::Raw(section) | Appended::Base64(section)) = appended;
-            let rest = section.get(start..).ok_or_else(|| {
-                invalid(format!("its offset is {start}, but only {} bytes of appended data are there", section.len()))
-            })?;
-            let encoded = match appended {
-                Appended::Raw(_) => Encoded::Raw(rest),
-                Appended::Base64(_) => Encoded::Base64(rest),
-            };
-            let bytes = read_bytes(encoded, file, scalar).map_err(invalid)?;
-            return whole_numbers(&bytes, scalar, file.byte_order).map_err(invalid);
-        }
-        other => {
-            let other: String = other.chars().take(40).collect();
-            return Err(invalid(format!("its format is \"{other}\", where ascii, binary and appended are known")));
-        }
-    };
-    whole_numbers(&bytes, scalar, file.byte_order).map_err(invalid)
+    }
+
+    /// What is behind so many bytes of the section; nothing where there are fewer.
+    fn from(&self, offset: usize) -> Option<Encoded<'a>> {
+        Some(match *self {
+            Self::Raw(section) => Encoded::Raw(section.get(offset..)?),
+            Self::Base64(section) => Encoded::Base64(section.get(offset..)?),
+            Self::Open { file, start } => {
+                let start = start.checked_add(offset).filter(|&start| start <= file.length())?;
+                Encoded::Open { file, start, end: file.length() }
+            }
+        })
+    }
 }
 
 /// Where an array stands, for messages.
@@ -102,68 +186,10 @@ pub(super) fn place(source: &Source, array: &ArrayElement<'_>, label: &str) -> S
     format!("{} ({label})", line(without_mark(&source.bytes), array.position))
 }
 
-fn whole_numbers(bytes: &[u8], scalar: ScalarType, order: ByteOrder) -> Result<ArrayValues, String> {
-    if !bytes.len().is_multiple_of(scalar.size()) {
-        return Err(format!("it has {} bytes, which is no multiple of the {} of a value", bytes.len(), scalar.size()));
-    }
-    Ok(scalar.decode_bytes(bytes, order))
-}
-
-/// Bytes still in their encoding; what was taken is gone.
-#[derive(Clone, Copy)]
-enum Encoded<'a> {
-    Raw(&'a [u8]),
-    Base64(&'a [u8]),
-}
-
-impl<'a> Encoded<'a> {
-    /// The next `count` bytes, which in base64 were encoded together: they end with a whole group of four characters.
-    fn take(&mut self, count: usize) -> Result<Cow<'a, [u8]>, String> {
-        match self {
-            Self::Raw(rest) => {
-                let (taken, left) = rest.split_at_checked(count).ok_or_else(|| too_short(count, rest.len()))?;
-                *rest = left;
-                Ok(Cow::Borrowed(taken))
-            }
-            Self::Base64(rest) => {
-                // More bytes than characters cannot be there, and below that the sum does not overflow.
-                if count > rest.len() {
-                    return Err(too_short(count, rest.len() / 4 * 3));
-                }
-                let characters = count.div_ceil(3) * 4;
-                let (taken, left) = rest.split_at(characters.min(rest.len()));
-                let mut bytes = BASE64.decode(taken).map_err(|e| format!("its base64 is damaged ({e})"))?;
-                if bytes.len() < count {
-                    return Err(too_short(count, bytes.len()));
-                }
-                bytes.truncate(count);
-                *rest = left;
-                Ok(Cow::Owned(bytes))
-            }
-        }
-    }
-
-    /// Whether the next `count` bytes were encoded apart from what follows: their last group is padded just so.
-    fn is_apart(&self, count: usize) -> bool {
-        match self {
-            Self::Raw(_) => true,
-            Self::Base64(rest) => {
-                let padding = (3 - count % 3) % 3;
-                let end = count.div_ceil(3) * 4;
-                padding > 0 && rest.get(end - padding) == Some(&b'=')
-            }
-        }
-    }
-}
-
-fn too_short(needed: usize, there: usize) -> String {
-    format!("{needed} bytes are declared, but only {there} are left in the file")
-}
-
-/// The array's bytes in the file's byte order, without header and compression.
-fn read_bytes<'a>(mut encoded: Encoded<'a>, file: &XmlFile<'_>, scalar: ScalarType) -> Result<Cow<'a, [u8]>, String> {
+/// An array's header, and where its data are.
+fn open<'a>(mut encoded: Encoded<'a>, file: &XmlFile<'_>, scalar: ScalarType) -> Result<Body<'a>, Problem> {
     let size = file.header_size;
-    let word = |bytes: &[u8]| -> Result<usize, String> {
+    let word = |bytes: &[u8]| -> Result<usize, Problem> {
         let mut wide = [0_u8; 8];
         let value = match file.byte_order {
             ByteOrder::Little => {
@@ -175,52 +201,54 @@ fn read_bytes<'a>(mut encoded: Encoded<'a>, file: &XmlFile<'_>, scalar: ScalarTy
                 u64::from_be_bytes(wide)
             }
         };
-        usize::try_from(value).map_err(|_| format!("its header says {value}"))
+        usize::try_from(value).map_err(|_| Problem::Words(format!("its header says {value}")))
     };
-    let mut ahead = encoded;
+    let mut ahead = encoded.clone();
     let first = word(&ahead.take(size)?)?;
     let Some(compressor) = file.compressor else {
-        if encoded.is_apart(size) {
+        let before = if encoded.is_apart(size) {
             encoded.take(size)?;
-            let bytes = encoded.take(first)?;
-            return file.budget.spend(first / scalar.size(), scalar.size()).map(|()| bytes);
-        }
-        let total = first.checked_add(size).ok_or_else(|| format!("{first} bytes are declared"))?;
-        let mut bytes = encoded.take(total)?.into_owned();
+            0
+        } else {
+            size
+        };
+        let body = match encoded {
+            Encoded::Base64(characters) => {
+                // Base64 holds three bytes for four characters.
+                let there = characters.len() / 4 * 3 + characters.len() % 4 * 3 / 4;
+                let total = first.checked_add(before).filter(|&total| total <= there);
+                total.ok_or_else(|| too_short(first, there.saturating_sub(before)))?;
+                Body::Base64 { characters, before, length: first }
+            }
+            mut plain => Body::Plain(plain.take_stored(first)?),
+        };
         file.budget.spend(first / scalar.size(), scalar.size())?;
-        bytes.drain(..size);
-        return Ok(Cow::Owned(bytes));
+        return Ok(body);
     };
     let block_count = first;
     if block_count == 0 {
-        return Ok(Cow::Borrowed(&[]));
+        return Ok(Body::Plain(Stored::Memory(Cow::Borrowed(&[]))));
     }
     let header_size = block_count
         .checked_add(3)
         .and_then(|words| words.checked_mul(size))
         .ok_or_else(|| format!("{block_count} compressed blocks are declared"))?;
     // Taking the header proves that its words are there, and so bounds the number of blocks by the file's size.
-    let header = encoded.take(header_size).map_err(|e| format!("{block_count} compressed blocks: {e}"))?;
+    let header = encoded.take(header_size).map_err(|problem| match problem {
+        Problem::Words(words) => Problem::Words(format!("{block_count} compressed blocks: {words}")),
+        failed => failed,
+    })?;
     let mut words = header.chunks_exact(size).map(word).skip(1);
-    let mut next = || words.next().unwrap_or_else(|| Err("its header is too short".to_owned()));
+    let mut next = || words.next().unwrap_or_else(|| Err("its header is too short".to_owned().into()));
     let (block_size, last_size) = (next()?, next()?);
-    let stored: Vec<usize> = words.collect::<Result<_, _>>()?;
-    let total = stored
+    let lengths: Vec<usize> = words.collect::<Result<_, _>>()?;
+    let total = lengths
         .iter()
         .try_fold(0_usize, |sum, &n| sum.checked_add(n))
-        .ok_or("the sizes of its compressed blocks overflow")?;
-    let blocks = encoded.take(total)?;
-    let declared_of = |number: usize| if number + 1 == stored.len() && last_size != 0 { last_size } else { block_size };
-    let inflated = (stored.len() - 1).saturating_mul(block_size).saturating_add(declared_of(stored.len() - 1));
-    file.budget.spend(inflated / scalar.size(), scalar.size())?;
-    let mut decompressor = Decompressor::new(compressor);
-    let mut out = Vec::new();
-    let mut at = 0;
-    for (number, &length) in stored.iter().enumerate() {
-        decompressor
-            .decompress(&blocks[at..at + length], declared_of(number), &mut out)
-            .map_err(|e| format!("compressed block {number} of {block_count}: {e}"))?;
-        at += length;
-    }
-    Ok(Cow::Owned(out))
+        .ok_or_else(|| "the sizes of its compressed blocks overflow".to_owned())?;
+    let last_size = if last_size == 0 { block_size } else { last_size };
+    let blocks = Blocks { stored: encoded.take_stored(total)?, lengths, size: block_size, last_size, compressor };
+    let body = Body::Blocks(blocks);
+    file.budget.spend(body.length() / scalar.size(), scalar.size())?;
+    Ok(body)
 }

@@ -319,6 +319,7 @@ fn vtu_errors_name_array_and_value() {
 }
 
 fn inflate(compressor: Compressor, block: &[u8], size: usize, out: &mut Vec<u8>) -> Result<(), String> {
+    compressor.check(block, size)?;
     Decompressor::new(compressor).decompress(block, size, out)
 }
 
@@ -410,7 +411,7 @@ fn vtu_many_pieces_are_not_looked_through_again_and_again() {
 fn vtu_arrays_have_a_limit_together() {
     let source = crate::Source { path: "a.vtu".into(), bytes: ascii_file().into_bytes(), ..Default::default() };
     let budget = super::super::grids::budget::Budget::new(super::super::grids::budget::Limit::NumbersAByte(16));
-    let parsed = super::elements::parse(&source, super::Kind::Unstructured, &budget).unwrap();
+    let parsed = super::elements::parse(&source, None, super::Kind::Unstructured, &budget).unwrap();
     parsed.budget.spend(1 << 20, 4).unwrap();
     let error = parsed.budget.spend(1, 4).unwrap_err();
     assert!(error.contains("16 numbers a byte") && error.contains("limit"), "{error}");

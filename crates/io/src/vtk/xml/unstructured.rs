@@ -11,6 +11,7 @@ use super::arrays::{index_array, indices, read_data, read_points};
 use super::faces::{FaceArrays, broken_row, row};
 use super::file::{Piece, XmlFile};
 use super::payload::place;
+use super::regular::read_regular;
 use crate::{IoError, Source};
 
 /// Decodes all arrays and puts the pieces one behind the other, without ghosts.
@@ -22,8 +23,15 @@ pub(super) fn assemble(source: &Source, file: &XmlFile<'_>, warnings: &mut Vec<S
         let own = read_points(source, file, piece)?;
         let label = if file.pieces.len() == 1 { "Cells".to_owned() } else { format!("piece {number}, Cells") };
         builder.begin_piece(&label, points.len(), own.len())?;
-        points.extend(own);
-        read_cells(source, file, piece, &mut builder)?;
+        if points.is_empty() {
+            points = own;
+        } else {
+            points.extend(own);
+        }
+        match read_regular(source, file, piece, builder.point_base(), builder.point_count())? {
+            Some(cells) => builder.push_all(cells),
+            None => read_cells(source, file, piece, &mut builder)?,
+        }
         if piece.point_count > 0 {
             let own = read_data(source, file, &piece.point_data, "point", piece.point_count, warnings)?;
             point_arrays.add_piece(own, warnings);

@@ -7,14 +7,24 @@
 /// Length of the header at the start of a stream: magic bytes, flags and their checksum.
 const STREAM_HEADER: usize = 12;
 
-/// Appends the content, which must have `size` bytes. The error says what is wrong.
-pub(super) fn decompress(container: &[u8], size: usize, out: &mut Vec<u8>) -> Result<(), String> {
-    let chunks = lzma2_chunks(container).ok_or("its xz container is damaged")?;
+/// Whether the content has `size` bytes by what its chunks declare. The error says what is wrong.
+pub(super) fn check(container: &[u8], size: usize) -> Result<(), String> {
+    let chunks = chunks_of(container)?;
     let declared = declared_size(chunks).ok_or("its LZMA2 chunks are damaged")?;
     if declared != size {
         return Err(format!("its LZMA2 chunks declare {declared} bytes, where {size} are declared for the block"));
     }
+    Ok(())
+}
+
+/// Appends the content, whose size was [checked](check). The error says what is wrong.
+pub(super) fn decompress(container: &[u8], out: &mut Vec<u8>) -> Result<(), String> {
+    let chunks = chunks_of(container)?;
     lzma_rs::lzma2_decompress(&mut &*chunks, out).map_err(|e| format!("its LZMA2 stream is damaged ({e:?})"))
+}
+
+fn chunks_of(container: &[u8]) -> Result<&[u8], String> {
+    lzma2_chunks(container).ok_or_else(|| "its xz container is damaged".to_owned())
 }
 
 /// What follows the headers of the stream and of its first block.
