@@ -32,11 +32,11 @@ const CELLS: &[(&str, CellKind, usize, usize)] = &[
     ("vertex", CellKind::Flat, 0, 0),
     ("line", CellKind::Flat, 0, 0),
     ("triangle", CellKind::Flat, 0, 0),
-    ("strip", CellKind::Flat, 0, 0),
-    ("polygon", CellKind::Flat, 0, 0),
+    ("strip", CellKind::FlatOf(6), 0, 0),
+    ("polygon", CellKind::FlatOf(7), 0, 0),
     ("quad", CellKind::Flat, 0, 0),
-    ("quadratic triangle", CellKind::Flat, 0, 0),
-    ("quadratic quad", CellKind::Flat, 0, 0),
+    ("quadratic triangle", CellKind::FlatOf(22), 0, 0),
+    ("quadratic quad", CellKind::FlatOf(23), 0, 0),
 ];
 
 #[test]
@@ -148,7 +148,7 @@ fn check_tetrahedra(name: &str, row: &Row, dataset: &Dataset) {
     }
     assert_eq!(cut.counts.tetrahedra, expected, "{name}: tetrahedra");
     // VTK cuts linear cells into as many as the specification does.
-    let is_linear = |word: &str| ["tet", "hex", "wedge", "pyramid"].contains(&word) || cell(word).1 == CellKind::Flat;
+    let is_linear = |word: &str| ["tet", "hex", "wedge", "pyramid"].contains(&word) || cell(word).1.is_flat();
     if let (Shape::Cells(counts), Some(by_vtk)) = (&row.shape, row.by_vtk)
         && counts.iter().all(|(_, word)| is_linear(word))
         // Its hexahedra of 20 points confuse VTK's filter.

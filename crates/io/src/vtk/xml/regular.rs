@@ -4,7 +4,7 @@
 
 use tetrascope_mesh::{CellKind, UnstructuredCells};
 
-use super::super::cell_types::{kind_of, point_count_of};
+use super::super::cell_types::{kind_of, number_of_flat, point_count_of};
 use super::arrays::{index_array, wanted_indices};
 use super::file::{Piece, XmlFile};
 use crate::{IoError, Source};
@@ -31,9 +31,10 @@ pub(super) fn read_regular(
     }
     let spent = file.budget.spent();
     let cells = read(source, file, piece, point_base, point_count)?;
-    let cells = cells.filter(|cells| is_regular(cells, piece.cell_count));
-    if cells.is_none() {
-        file.budget.restore(spent);
+    let mut cells = cells.filter(|cells| is_regular(cells, piece.cell_count));
+    match &mut cells {
+        Some(cells) => name_plain_faces(cells),
+        None => file.budget.restore(spent),
     }
     Ok(cells)
 }
@@ -60,10 +61,28 @@ fn read(
         return Ok(None);
     }
     let Some(types) = wanted("types")? else { return Ok(None) };
-    if !types.turn_indices(&mut cells.kinds, CellKind::Flat, kind_of)? {
+    let kind = |number: i64| {
+        let kind = kind_of(number)?;
+        // Which of them are plain their points will tell.
+        let of = u8::try_from(number).ok().filter(|&number| kind == CellKind::Flat && number > 0);
+        Some(of.map_or(kind, CellKind::FlatOf))
+    };
+    if !types.turn_indices(&mut cells.kinds, CellKind::Flat, kind)? {
         return Ok(None);
     }
     Ok(Some(cells))
+}
+
+/// Points, lines and faces whose number of points says their kind keep no number besides.
+fn name_plain_faces(cells: &mut UnstructuredCells) {
+    let counts = cells.offsets.windows(2).map(|row| row[1] - row[0]);
+    for (kind, count) in cells.kinds.iter_mut().zip(counts) {
+        if let CellKind::FlatOf(number) = *kind
+            && number_of_flat(count) == Some(number)
+        {
+            *kind = CellKind::Flat;
+        }
+    }
 }
 
 fn is_regular(cells: &UnstructuredCells, declared: u64) -> bool {
