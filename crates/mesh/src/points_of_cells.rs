@@ -78,8 +78,6 @@ impl TetMesh {
 
 #[cfg(test)]
 mod tests {
-    #![expect(clippy::unwrap_used, reason = "a test that cannot go on fails here")]
-
     use crate::{FaceAdjacency, decompose, rings_sample};
 
     #[test]

@@ -175,12 +175,11 @@ fn a_byte_order_mark_is_no_error() {
 
 #[test]
 fn effects_that_are_not_there_are_refused_by_name() {
-    for (text, key) in [("[[surface]]\npath = \"fin.glb\"", "[[surface]] (path = \"fin.glb\")")] {
-        let error = toml(&format!("[mesh]\npath = \"m\"\n{text}\n")).complete(&facts()).unwrap_err();
-        assert!(matches!(error, SceneError::NotSupported { .. }));
-        let text = error.to_string();
-        assert!(text.contains(key) && text.contains("not supported yet"), "{text}");
-    }
+    let text = "[mesh]\npath = \"m\"\n[[surface]]\npath = \"fin.glb\"\n";
+    let error = toml(text).complete(&facts()).unwrap_err();
+    assert!(matches!(error, SceneError::NotSupported { .. }));
+    let text = error.to_string();
+    assert!(text.contains("[[surface]] (path = \"fin.glb\")") && text.contains("not supported yet"), "{text}");
 }
 
 #[test]

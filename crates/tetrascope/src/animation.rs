@@ -72,8 +72,6 @@ pub fn turned_camera(camera: &CameraSection, axis: Option<[f64; 3]>, degrees: f6
 
 #[cfg(test)]
 mod tests {
-    #![expect(clippy::unwrap_used, reason = "a test that cannot go on fails here")]
-
     use super::*;
 
     #[test]

@@ -48,13 +48,10 @@ pub(super) fn fill_transfer(
     }
     let color = match section.color.take() {
         Some(points) => {
-            for key in [section.colormap.take().map(|_| "colormap"), preset.as_ref().map(|_| "preset")] {
-                if let Some(key) = key {
-                    warnings.push(format!(
-                        "the colors of transfer.{key} have no effect: transfer.color has points of its own"
-                    ));
-                }
-            }
+            let unused = [section.colormap.take().map(|_| "colormap"), preset.as_ref().map(|_| "preset")];
+            warnings.extend(unused.into_iter().flatten().map(|key| {
+                format!("the colors of transfer.{key} have no effect: transfer.color has points of its own")
+            }));
             points
         }
         None => colors_of(section, preset.as_ref(), &domain, decisions, warnings)?,
