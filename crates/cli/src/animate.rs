@@ -3,7 +3,6 @@
 mod record;
 mod steps;
 
-use std::collections::HashSet;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
@@ -11,7 +10,7 @@ use clap::{Args, ValueEnum};
 use serde_json::json;
 use tetrascope::{
     Completed, MeshFacts, Progress, SceneFile, Stage, Volume, VolumeField, check_writable, frames_of, make_folder,
-    read_preset, short, turned_camera, write_image,
+    short, turned_camera, write_image,
 };
 use tetrascope_study::StudyProgress;
 
@@ -21,7 +20,7 @@ use crate::interrupt;
 use crate::progress::Bar;
 use crate::render::wrong_scene;
 use crate::report::{line, object, warning};
-use crate::scene_of::override_by_options;
+use crate::scene_of::{override_by_options, read_color_map};
 use crate::scene_paths::is_scene;
 
 use record::{FrameFile, Record};
@@ -110,16 +109,16 @@ pub(crate) fn run(args: &AnimateArgs) -> Result<(), Failure> {
     let bar = Bar::new(false);
     let done = animate(args, &bar);
     bar.clear();
-    let (record, drawn) = done?;
-    let [low, high] = record.range;
+    let Animated { record, drawn, warnings } = done?;
     if args.json {
         object(&json!({ "folder": args.output.display().to_string(), "frames": record.frames.len(), "drawn": drawn,
-            "steps": record.steps.len(), "times": record.times(), "field": record.field, "range": [low, high],
+            "steps": record.steps.len(), "times": record.times(), "field": record.field, "range": record.range, "warnings": warnings,
             "seconds": start.elapsed().as_secs_f64() }));
         return Ok(());
     }
     line(&format!("steps       {}{}", record.steps.len(), record.times_text()));
-    line(&format!("field       {}, {} to {} over all of them", record.field, short(low), short(high)));
+    let over = record.range.map(|[low, high]| format!(", {} to {} over all of them", short(low), short(high)));
+    line(&format!("field       {}{}", record.field, over.unwrap_or_default()));
     let before = record.frames.len() - drawn;
     let there = if before > 0 { format!(", {before} were there before") } else { String::new() };
     line(&format!("frames      {drawn} drawn{there}"));
@@ -141,10 +140,10 @@ struct Asked<'a> {
     bar: &'a Bar,
 }
 
-fn animate<'a>(args: &'a AnimateArgs, bar: &'a Bar) -> Result<(Record, usize), Failure> {
+fn animate<'a>(args: &'a AnimateArgs, bar: &'a Bar) -> Result<Animated, Failure> {
     let (mut scene, base_dir, shown) = inputs_of(&args.input)?;
     override_by_options(&mut scene, &args.look);
-    read_preset(&mut scene, &base_dir)?;
+    read_color_map(&mut scene, &base_dir, &args.look)?;
     let scene_path = args.input.first().map(PathBuf::as_path).filter(|path| is_scene(path));
     let asked = Asked { args, scene, base_dir, scene_path, bar };
     let text = record::asked_text(&asked.scene, &asked.base_dir, &shown, args)?;
@@ -158,14 +157,23 @@ fn animate<'a>(args: &'a AnimateArgs, bar: &'a Bar) -> Result<(Record, usize), F
         }
     };
     let drawn = draw(&asked, &record, &mut kept)?;
-    Ok((record, drawn))
+    Ok(Animated { record, drawn, warnings: kept.said })
+}
+
+/// What was done.
+struct Animated {
+    record: Record,
+    /// Frames that were not there.
+    drawn: usize,
+    warnings: Vec<String>,
 }
 
 /// The mesh of the last time step that was read.
 #[derive(Default)]
 struct Kept {
     volume: Option<(usize, Volume)>,
-    said: HashSet<String>,
+    /// What the user should know, each once.
+    said: Vec<String>,
 }
 
 impl Kept {
@@ -190,9 +198,10 @@ impl Kept {
     }
 }
 
-fn say_once(said: &mut HashSet<String>, text: &str) {
-    if said.insert(text.to_owned()) {
+fn say_once(said: &mut Vec<String>, text: &str) {
+    if !said.iter().any(|other| other == text) {
         warning(text);
+        said.push(text.to_owned());
     }
 }
 
@@ -204,7 +213,8 @@ fn decide(asked: &Asked<'_>, inputs: Vec<Shown>, text: String, kept: &mut Kept) 
     let frames = frames_of(steps.len(), args.frames.map(|frames| frames as usize), args.turn);
     let mut used: Vec<usize> = frames.iter().map(|frame| frame.step).collect();
     used.dedup();
-    if leaves_nothing_open(&asked.scene) {
+    let looks_at_all = !leaves_nothing_open(&asked.scene) || used.len() == 1;
+    if !looks_at_all {
         used.truncate(1);
     }
     // The one that is there already first.
@@ -242,7 +252,7 @@ fn decide(asked: &Asked<'_>, inputs: Vec<Shown>, text: String, kept: &mut Kept) 
     Ok(Record {
         asked: text,
         field: scene.mesh.field.clone().unwrap_or_default(),
-        range: [low, high],
+        range: looks_at_all.then_some([low, high]),
         frames: frames.collect(),
         steps,
         scene,

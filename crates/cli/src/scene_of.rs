@@ -15,7 +15,7 @@ use crate::scene_paths::{self, folder_of, is_scene};
 pub(crate) fn scene_of(args: &SceneArgs) -> Result<(SceneFile, PathBuf), Failure> {
     let (mut scene, base_dir) = scene_of_inputs(&args.input)?;
     override_by_options(&mut scene, &args.look);
-    read_preset(&mut scene, &base_dir)?;
+    read_color_map(&mut scene, &base_dir, &args.look)?;
     Ok((scene, base_dir))
 }
 
@@ -99,6 +99,17 @@ fn override_transfer(section: &mut TransferSection, args: &LookArgs) {
     }
     set_some(&mut section.opacity_length, args.opacity_length.as_ref());
     set_some(&mut section.range, args.range.as_ref());
+}
+
+/// Reads the color map's file. One of the scene's gives way to an option's name, and goes where it has nothing but colors.
+pub(crate) fn read_color_map(scene: &mut SceneFile, base_dir: &Path, args: &LookArgs) -> Result<(), Failure> {
+    read_preset(scene, base_dir)?;
+    let transfer = &mut scene.transfer;
+    let has_opacity = transfer.preset_map.as_ref().is_some_and(|preset| preset.map.opacity().is_some());
+    if args.cmap.is_some() && transfer.colormap.is_some() && !has_opacity {
+        (transfer.preset, transfer.preset_name, transfer.preset_map) = (None, None, None);
+    }
+    Ok(())
 }
 
 /// The file that a word for a color map names, and which of its maps: color maps themselves have names without extension.

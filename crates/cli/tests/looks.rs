@@ -83,6 +83,8 @@ fn color_maps_and_opacity() {
     assert!(difference(&turned, &rings(&["--cmap", "gray_r"])) < 1e-5);
     assert_eq!(rings(&["--cmap", "scenes/maps.json:b"]), turned);
     assert!(difference(&picture(at, &["scenes/scene.toml", "--cmap", "gray"]), &rings(&["--cmap", "gray"])) < 1e-6);
+    let said = run(at, &["render", "scenes/scene.toml", "--cmap", "gray", "--size", "16"]);
+    assert!(!text(&said.stderr).contains("transfer.preset"), "{}", text(&said.stderr));
 
     // Kept as numbers, it is the same picture.
     picture(at, &["scenes/scene.toml", "--opacity", "sigmoid", "--write-scene", "kept.toml"]);

@@ -21,8 +21,8 @@ pub(super) struct Record {
     pub(super) scene: SceneFile,
     /// The field's full name.
     pub(super) field: String,
-    /// Its lowest and highest value over all time steps that were looked at.
-    pub(super) range: [f64; 2],
+    /// Its lowest and highest value over all time steps; nothing where they were not looked at, as the scene leaves nothing open.
+    pub(super) range: Option<[f64; 2]>,
     /// Time steps that are shown.
     pub(super) steps: Vec<Shown>,
     /// Frames by their files' names.
@@ -46,7 +46,7 @@ struct Written {
     tetrascope: String,
     asked: String,
     field: String,
-    range: [f64; 2],
+    range: Option<[f64; 2]>,
     steps: Vec<Shown>,
     frames: Vec<FrameFile>,
     scene: String,
