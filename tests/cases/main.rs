@@ -6,6 +6,7 @@
     reason = "helpers of tests: a panic is a failure, and measured maxima are said"
 )]
 
+mod constants;
 mod cycles;
 mod errors;
 mod golden;
