@@ -48,7 +48,7 @@ impl Tetrahedron {
         (b - a).cross(c - a).dot(d - a) / 6.0
     }
 
-    /// The segments of all pixels as the renderer has them, row by row; `None` for a cell that is drawn in f64.
+    /// The segments of all pixels as the renderer has them, row by row; `None` for a cell that is drawn in f64, or that lies between pixels.
     fn segments(&self, view: &View, interpolation: Interpolation) -> Option<Vec<Option<Segment>>> {
         let mesh = TetMesh::from_tetrahedra(&self.corners, &[[0, 1, 2, 3]]).unwrap().mesh;
         let renderer = CpuRenderer::new(&mesh, &self.scalars).unwrap();
@@ -58,11 +58,12 @@ impl Tetrahedron {
         let space = PixelSpace::new(&view.in_frame(origin, scale), scale);
         let mut points = Points::default();
         points.project(&space, &renderer.positions, &renderer.scalars);
+        let outline = points.pixel_box(&space, [0, 1, 2, 3])?;
         let setup = SetUp {
             renderer: &renderer,
             points: &points,
             space: &space,
-            outlines: &[points.pixel_box(&space, [0, 1, 2, 3]).unwrap().map(|p| p as u16)],
+            outlines: &[outline.map(|p| p as u16)],
             optics: &renderer.optics(&plan, &Isosurfaces::default()),
             with_fans: false,
             sharpness: None,
