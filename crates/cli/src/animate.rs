@@ -152,6 +152,7 @@ fn animate<'a>(args: &'a AnimateArgs, bar: &'a Bar) -> Result<Animated, Failure>
         Some(record) => record,
         None => {
             let record = decide(&asked, shown, text, &mut kept)?;
+            record.make_way(args)?;
             record.write(&args.output)?;
             record
         }

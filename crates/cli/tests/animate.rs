@@ -173,4 +173,15 @@ fn what_cannot_be_shown_is_said() {
     let output = animate(at, &["out.pvd", "-o", "other"]);
     assert_eq!(output.status.code(), Some(1));
     assert_eq!(std::fs::read(at.join("other/frame_0000.png")).unwrap(), b"somebody's");
+    // Nor is another of its frames taken for one that is drawn, and on demand none is.
+    std::fs::create_dir(at.join("later")).unwrap();
+    std::fs::write(at.join("later/frame_0002.png"), "somebody's").unwrap();
+    let output = animate(at, &["out.pvd", "-o", "later"]);
+    assert_eq!(output.status.code(), Some(1));
+    assert!(text(&output.stderr).contains("frame_0002.png"), "{}", text(&output.stderr));
+    for (folder, frame) in [("other", 0), ("later", 2)] {
+        let said = good(&animate(at, &["out.pvd", "-o", folder, "--restart"]));
+        assert!(said.contains("3 drawn\n"), "{said}");
+        assert_eq!(pixels(&at.join(folder).join(format!("frame_000{frame}.png"))).len(), 256);
+    }
 }

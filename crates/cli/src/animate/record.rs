@@ -71,6 +71,18 @@ impl Record {
         Ok(write_bytes(&path, text.as_bytes()).map_err(tetrascope::Error::Io)?)
     }
 
+    /// Removes files that have the names of its frames and are none of them, where that was asked for: what is there counts as drawn.
+    pub(super) fn make_way(&self, args: &AnimateArgs) -> Result<(), Failure> {
+        for path in self.frames.iter().map(|frame| args.output.join(&frame.file)) {
+            if args.restart {
+                remove(&path)?;
+            } else if path.exists() {
+                return Err(in_the_way(&path));
+            }
+        }
+        Ok(())
+    }
+
     /// The times of the steps, where files know them.
     pub(super) fn times(&self) -> Vec<f64> {
         self.steps.iter().filter_map(|step| step.time).collect()
@@ -84,6 +96,13 @@ impl Record {
             [first, .., last] => format!(", times {} to {}", short(*first), short(*last)),
         }
     }
+}
+
+/// What to do about a folder that holds something else.
+const REMEDY: &str = "choose another folder with -o, or draw all frames anew with --restart";
+
+fn in_the_way(path: &Path) -> Failure {
+    Failure::Input(format!("{}: it is there, with no {NAME} beside it; {REMEDY}", path.display()))
 }
 
 /// Everything that frames depend on, with the lengths and times of the files, as one text.
@@ -125,15 +144,11 @@ pub(super) fn find(args: &AnimateArgs, asked: &str) -> Result<Option<Record>, Fa
         Err(error) if error.kind() == std::io::ErrorKind::NotFound => None,
         Err(error) => return Err(Failure::Input(format!("{}: cannot be read: {error}", path.display()))),
     };
-    let away = "choose another folder with -o, or draw all frames anew with --restart";
     match written {
         None => {
             let first = folder.join(format!("frame_0000.{}", args.format.extension()));
             if first.exists() && !args.restart {
-                return Err(Failure::Input(format!(
-                    "{}: it is there, with no {NAME} beside it; {away}",
-                    first.display()
-                )));
+                return Err(in_the_way(&first));
             }
             Ok(None)
         }
@@ -143,7 +158,7 @@ pub(super) fn find(args: &AnimateArgs, asked: &str) -> Result<Option<Record>, Fa
                 .map_err(|error| Failure::Input(error.to_string()))?;
             let Written { asked, field, range, steps, frames, .. } = written;
             if let Some(odd) = frames.iter().find(|frame| frame.step >= steps.len() || !is_name(&frame.file)) {
-                return Err(Failure::Input(format!("{}: the frame {} is none; {away}", path.display(), odd.file)));
+                return Err(Failure::Input(format!("{}: the frame {} is none; {REMEDY}", path.display(), odd.file)));
             }
             Ok(Some(Record { asked, scene, field, range, steps, frames }))
         }
@@ -155,12 +170,12 @@ pub(super) fn find(args: &AnimateArgs, asked: &str) -> Result<Option<Record>, Fa
             Ok(None)
         }
         Some(Ok(_)) => Err(Failure::Input(format!(
-            "{}: the folder holds frames of another animation: the scene, its options or its files were others; {away}",
+            "{}: the folder holds frames of another animation: the scene, its options or its files were others; {REMEDY}",
             path.display()
         ))),
         Some(Err(_)) if args.restart => Ok(None),
         Some(Err(error)) => {
-            Err(Failure::Input(format!("{}: no record of an animation: {error}; {away}", path.display())))
+            Err(Failure::Input(format!("{}: no record of an animation: {error}; {REMEDY}", path.display())))
         }
     }
 }
