@@ -2,12 +2,16 @@
 
 #![expect(clippy::unwrap_used, reason = "a test that cannot go on fails here")]
 
-use std::path::{Path, PathBuf};
+mod common;
+
+use std::path::PathBuf;
 use std::process::{Command, Output};
 
 use serde_json::{Value, json};
 use tempfile::TempDir;
 use tetrascope::{Cells, Dataset, Loaded, ReadOptions, read_mesh};
+
+use common::{has, shared};
 
 /// A hexahedron as a polyhedron beside an inverted tetrahedron, a flat one and a triangle; arrays of points and cells, an odd name among them.
 const MESH: &str = r#"<VTKFile type="UnstructuredGrid" version="0.1" byte_order="LittleEndian"><UnstructuredGrid>
@@ -76,12 +80,6 @@ impl Run {
 
     fn read(&self, name: &str) -> Loaded {
         read_mesh(&self.path(name), &ReadOptions::default()).unwrap()
-    }
-}
-
-fn has(text: &str, parts: &[&str]) {
-    for part in parts {
-        assert!(text.contains(part), "\"{part}\" is not in:\n{text}");
     }
 }
 
@@ -221,18 +219,6 @@ fn a_mesh_of_faces_alone_goes_out_but_not_as_tetrahedra() {
     run.good(&["convert", "faces.vtu", "out.vtu"]);
     assert_eq!(told(&run.read("out.vtu").dataset), told(&run.read("faces.vtu").dataset));
     has(&run.bad(1, &["convert", "faces.vtu", "new.vtu", "--tetrahedra"]), &["faces.vtu"]);
-}
-
-/// The folder of shared files; `None`, said loudly, where it is absent.
-#[expect(clippy::print_stderr, reason = "a test that was skipped has to say so")]
-fn shared(path: &str) -> Option<PathBuf> {
-    let path = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../../../shared")).join(path);
-    if path.exists() {
-        return Some(path);
-    }
-    assert!(std::env::var_os("TETRASCOPE_REQUIRE_SHARED").is_none(), "{} is required", path.display());
-    eprintln!("SKIPPED: {} is not here", path.display());
-    None
 }
 
 #[test]

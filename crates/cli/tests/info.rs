@@ -2,11 +2,14 @@
 
 #![expect(clippy::unwrap_used, reason = "a test that cannot go on fails here")]
 
-use std::path::{Path, PathBuf};
+mod common;
+
 use std::process::{Command, Output};
 
 use serde_json::{Value, json};
 use tempfile::TempDir;
+
+use common::{has, shared};
 
 /// A tetrahedron and its mirror image, with values that are easily counted.
 fn mesh(scalars: &str) -> String {
@@ -44,12 +47,6 @@ impl Run {
 
     fn json(&self, args: &[&str]) -> Value {
         serde_json::from_str(&self.good(args)).unwrap()
-    }
-}
-
-fn has(text: &str, parts: &[&str]) {
-    for part in parts {
-        assert!(text.contains(part), "\"{part}\" is not in:\n{text}");
     }
 }
 
@@ -167,18 +164,6 @@ fn raw_volumes_and_the_sample() {
         &["raw volume", "1  hexahedron", "of ImageFile: 8 points"],
     );
     has(&run.good(&["info", "builtin:rings"]), &["built-in sample", "of distance: 15625 points"]);
-}
-
-/// The folder of shared files; `None`, said loudly, where it is absent.
-#[expect(clippy::print_stderr, reason = "a test that was skipped has to say so")]
-fn shared(path: &str) -> Option<PathBuf> {
-    let path = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../../../shared")).join(path);
-    if path.exists() {
-        return Some(path);
-    }
-    assert!(std::env::var_os("TETRASCOPE_REQUIRE_SHARED").is_none(), "{} is required", path.display());
-    eprintln!("SKIPPED: {} is not here", path.display());
-    None
 }
 
 #[test]

@@ -2,10 +2,14 @@
 
 #![expect(clippy::unwrap_used, reason = "a test that cannot go on fails here")]
 
+mod common;
+
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 
 use tempfile::TempDir;
+
+use common::{has, shared};
 
 /// A folder of its own for every test; the program runs in it.
 struct Run {
@@ -57,12 +61,6 @@ fn is_input(extension: &std::ffi::OsStr) -> bool {
 
 fn stderr(output: &Output) -> String {
     String::from_utf8_lossy(&output.stderr).into_owned()
-}
-
-fn has(text: &str, parts: &[&str]) {
-    for part in parts {
-        assert!(text.contains(part), "\"{part}\" is not in:\n{text}");
-    }
 }
 
 /// Two tetrahedra with a scalar, a vector, a cell array, and an array with a NaN at the far point.
@@ -386,18 +384,6 @@ fn a_blank_picture_is_explained() {
         assert_eq!(output.status.code(), Some(0));
         has(&stderr(&output), &["warning: the picture is blank", reason]);
     }
-}
-
-/// The folder of shared files; `None`, said loudly, where it is absent.
-#[expect(clippy::print_stderr, reason = "a test that was skipped has to say so")]
-fn shared(path: &str) -> Option<PathBuf> {
-    let path = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../../../shared")).join(path);
-    if path.exists() {
-        return Some(path);
-    }
-    assert!(std::env::var_os("TETRASCOPE_REQUIRE_SHARED").is_none(), "{} is required", path.display());
-    eprintln!("SKIPPED: {} is not here", path.display());
-    None
 }
 
 #[test]

@@ -121,6 +121,11 @@ pub(crate) fn check_mesh(cells: usize, points: usize) -> Result<(), MemoryError>
     check_large("tetrahedra", 2 * (17 * cells as u64 + 32 * points as u64))
 }
 
+/// Refuses constants of cells where not even the least of them can be held: a position, a scalar and its place for each of four corners.
+pub(crate) fn check_cell_points(cells: usize) -> Result<(), MemoryError> {
+    check_large("points of cells", 4 * 36 * cells as u64)
+}
+
 fn check_large(what: &'static str, bytes: u64) -> Result<(), MemoryError> {
     if bytes <= ALWAYS_THERE { Ok(()) } else { check(vec![(what, bytes)], memory_left(), is_given) }
 }

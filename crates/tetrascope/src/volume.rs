@@ -137,8 +137,11 @@ impl Volume {
     /// The cell array of this name as one constant a cell, see [`select_cell_field`]; without a name the first scalar one.
     ///
     /// # Errors
-    /// [`Error::Field`] with all arrays if there is none of this name, if it has no finite value, or if the cells have too many corners.
+    /// [`Error::Field`] with all arrays if there is none of this name, if it has no finite value, or if the cells have too many corners;
+    /// [`Error::MeshMemory`] if these cannot be held.
     pub fn cell_field(&self, name: Option<&str>) -> Result<VolumeField<'_>, Error> {
+        memory::check_cell_points(cell_count(&self.dataset.cells))
+            .map_err(|error| Error::MeshMemory { source_name: self.source_name.clone(), error })?;
         self.place(select_cell_field(&self.dataset, name))
     }
 
